@@ -1,0 +1,65 @@
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "delvox/core/geometry.h"
+
+namespace delvox {
+
+/// Bounds on the effort of a run; 0 means none. Reaching one ends the run with what there is.
+struct RunLimits {
+  std::size_t max_vertices = 0;
+  double max_seconds = 0;
+};
+
+/// A sign of life, sent a few times a second at most.
+struct Progress {
+  const char* stage = "";   ///< "seeds", "surface", "topology", "interior", "tets", ...
+  std::size_t vertices = 0;  ///< in the triangulation so far
+  std::size_t waiting = 0;   ///< entries in the queues
+};
+
+/// How a caller steers a running algorithm.
+struct RunControl {
+  RunLimits limits;
+  std::function<void(const Progress&)> on_progress;  ///< called from the running thread
+  const std::atomic<bool>* cancel = nullptr;          ///< set to true: the run throws Cancelled soon after
+};
+
+enum class StopReason { kFinished, kMaxVertices, kMaxSeconds };
+const char* to_string(StopReason reason);
+
+/// A criterion that could not be met somewhere, with the first place where.
+struct Unmet {
+  std::string criterion;  ///< "topology", "deviation", "angle", "radius-edge", ...
+  std::size_t count = 0;
+  Point3 where;           ///< world position of one instance
+  std::string reason;
+  bool breaks_promise = true;  ///< false: counted and reported, but the run still succeeds
+};
+
+/// How long a stage took.
+struct StageTime {
+  std::string stage;
+  double seconds = 0;
+};
+
+/// What a run did, beside its mesh.
+struct RunReport {
+  StopReason stop = StopReason::kFinished;
+  std::vector<Unmet> unmet;
+  std::vector<StageTime> stages;
+  std::size_t components = 0;          ///< of the surface, as seeded
+  std::size_t surface_insertions = 0;
+  std::size_t topology_insertions = 0;
+  std::size_t interior_insertions = 0;
+  std::size_t removals = 0;            ///< step 2 of DelTetSurf
+
+  bool succeeded() const;
+};
+
+}  // namespace delvox

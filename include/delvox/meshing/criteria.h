@@ -1,0 +1,24 @@
+#pragma once
+
+#include <limits>
+
+#include "delvox/meshing/size_field.h"
+
+namespace delvox {
+
+/// What every surface triangle must meet. Lengths in mm, angles in degrees.
+struct SurfaceCriteria {
+  SizeField size = 1.0;              ///< upper bound on surface Delaunay ball radii (lambda)
+  double min_angle_degrees = 30;     ///< 0 to 30; 30 is radius-edge 1, the Quality step of DelSurf
+  double max_deviation = std::numeric_limits<double>::infinity();  ///< circumcentre to surface ball centre
+  double min_ball_radius = 0;        ///< TopoDisk and deviation leave balls at or below this radius alone
+  bool topo_disk = true;             ///< false: skip step 3 of DelSurf; the surface need not be manifold
+};
+
+/// What every tetrahedron must meet.
+struct TetCriteria {
+  double radius_edge = 2;            ///< at least 2 (theorem 14.15)
+  SizeField cell_size = 1.0;         ///< upper bound on circumradii
+};
+
+}  // namespace delvox
