@@ -14,6 +14,24 @@
 
 namespace delvox {
 
+/// A vertex that carries its number, and its time of creation: CGAL then orders and hashes vertices by that, not by
+/// address, and removals fill their holes alike on every run.
+template <class Kernel, class Base = CGAL::Triangulation_vertex_base_with_info_3<VertexId, Kernel>>
+class StampedVertexBase : public Base {
+ public:
+  template <class Structure>
+  struct Rebind_TDS {
+    using Other = StampedVertexBase<Kernel, typename Base::template Rebind_TDS<Structure>::Other>;
+  };
+  using Base::Base;
+  using Has_timestamp = CGAL::Tag_true;
+  std::size_t time_stamp() const { return stamp_; }
+  void set_time_stamp(std::size_t stamp) { stamp_ = stamp; }
+
+ private:
+  std::size_t stamp_ = static_cast<std::size_t>(-1);
+};
+
 /// CGAL's Delaunay triangulation behind cell and vertex numbers. Numbers of dead cells and vertices are used again;
 /// a cell's stamp tells whether it is still the cell that was meant.
 class Delaunay3 {
@@ -61,7 +79,7 @@ class Delaunay3 {
 
  private:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using VertexBase = CGAL::Triangulation_vertex_base_with_info_3<VertexId, Kernel>;
+  using VertexBase = StampedVertexBase<Kernel>;
   using CellBase =
       CGAL::Triangulation_cell_base_with_info_3<CellId, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
   using Structure = CGAL::Triangulation_data_structure_3<VertexBase, CellBase>;
