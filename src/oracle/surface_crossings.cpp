@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
 
-#include "core/hash.h"
+#include "core/flat_hash.h"
 
 namespace delvox {
 namespace {
@@ -66,7 +65,7 @@ class CrossingFinder {
       if (last(sample, axis)) continue;
       const float other = p[kStride[axis]];
       if ((other > level_) == inside) continue;
-      index_.emplace(key(sample, axis), static_cast<std::uint32_t>(result_.crossings.size()));
+      index_[key(sample, axis)] = static_cast<std::uint32_t>(result_.crossings.size());
       const double position = (level_ - p[0]) / (static_cast<double>(other) - p[0]);
       result_.crossings.push_back({sample, axis, position, 0});
     }
@@ -113,7 +112,7 @@ class CrossingFinder {
   }
 
   void join(std::uint64_t a, std::uint64_t b) {
-    const std::uint32_t ra = root(index_.at(a)), rb = root(index_.at(b));
+    const std::uint32_t ra = root(index_.find(a)), rb = root(index_.find(b));
     parent_[std::max(ra, rb)] = std::min(ra, rb);
   }
 
@@ -127,14 +126,10 @@ class CrossingFinder {
     }
   }
 
-  struct KeyHash {
-    std::size_t operator()(std::uint64_t key) const { return mix_hash(key); }
-  };
-
   const BrickField& field_;
   double level_;
   GridCrossings result_;
-  std::unordered_map<std::uint64_t, std::uint32_t, KeyHash> index_;
+  FlatHash index_;
   std::vector<std::uint32_t> parent_;
 };
 
