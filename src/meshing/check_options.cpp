@@ -1,0 +1,43 @@
+#include "meshing/check_options.h"
+
+#include <cmath>
+#include <string>
+
+#include "delvox/core/errors.h"
+
+namespace delvox {
+
+void check_criteria(const SurfaceCriteria& criteria) {
+  if (!(criteria.size.minimum() > 0)) throw OptionError("size must be positive");
+  if (!(criteria.min_angle_degrees >= 0 && criteria.min_angle_degrees <= 30)) {
+    throw OptionError("min-angle " + std::to_string(criteria.min_angle_degrees) +
+                      ": refinement ends for 0 to 30 degrees only; choose a value in that range");
+  }
+  if (!(criteria.max_deviation > 0)) throw OptionError("max-deviation must be positive");
+  if (!(criteria.min_ball_radius >= 0)) throw OptionError("the smallest ball radius must not be negative");
+}
+
+void check_criteria(const TetCriteria& criteria) {
+  if (!(criteria.radius_edge >= 2)) {
+    throw OptionError("radius-edge " + std::to_string(criteria.radius_edge) +
+                      ": refinement ends for bounds of 2 and more only; choose at least 2");
+  }
+  if (!(criteria.cell_size.minimum() > 0)) throw OptionError("cell-size must be positive");
+}
+
+Promises promises_of(const SurfaceCriteria& criteria) {
+  Promises promises;
+  promises.min_angle_degrees = criteria.min_angle_degrees;
+  promises.size = criteria.size.maximum();
+  if (std::isfinite(criteria.max_deviation)) promises.max_deviation = criteria.max_deviation;
+  return promises;
+}
+
+Promises promises_of(const SurfaceCriteria& surface, const TetCriteria& tets) {
+  Promises promises = promises_of(surface);
+  promises.radius_edge = tets.radius_edge;
+  promises.cell_size = tets.cell_size.maximum();
+  return promises;
+}
+
+}  // namespace delvox

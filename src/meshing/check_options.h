@@ -1,0 +1,16 @@
+#pragma once
+
+#include "delvox/core/mesh.h"
+#include "delvox/meshing/criteria.h"
+
+namespace delvox {
+
+/// Throws OptionError unless the criteria are such that refinement is known to end (book, 14.4 and 14.5).
+void check_criteria(const SurfaceCriteria& criteria);
+void check_criteria(const TetCriteria& criteria);
+
+/// The criteria as promises; size fields promise their maximum.
+Promises promises_of(const SurfaceCriteria& criteria);
+Promises promises_of(const SurfaceCriteria& surface, const TetCriteria& tets);
+
+}  // namespace delvox

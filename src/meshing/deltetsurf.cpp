@@ -1,0 +1,45 @@
+#include "delvox/meshing/deltetsurf.h"
+
+#include "meshing/check_options.h"
+#include "meshing/extract.h"
+#include "meshing/refinement.h"
+
+namespace delvox {
+
+// DelTetSurf(Sigma, lambda, rho), book section 14.5, in its isosurface variant: the boundary of Del|O stands in for
+// Del|Sigma, so that step 4 falls away (end of 14.5); seeds on every component stand in for the persistent triangle of
+// steps 1 and 6. The surface converges before any interior vertex exists: an interior vertex that a later surface
+// vertex exposes must be removed again (step 2).
+TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunReport& report) {
+  check_criteria(options.surface);
+  check_criteria(options.tets);
+  report = RunReport{};
+  Refinement refinement(oracle, options.surface, options.control, report);
+  RunBudget& budget = refinement.budget();
+
+  budget.begin_stage("seeds");
+  refinement.insert_seeds();  // step 1
+  const auto refine_surface = [&] {
+    do {
+      budget.begin_stage("surface");
+      refinement.refine_surface();  // steps 2 and 3, Quality
+      budget.begin_stage("topology");
+    } while (refinement.repair_topology());  // step 5
+  };
+  refine_surface();
+  refinement.watch_tets(options.tets);
+  do {
+    budget.begin_stage("tets");
+    refinement.refine_tets();  // step 7, returning to steps 2 and 3 after each surface insertion
+    budget.begin_stage("topology");
+  } while (refinement.repair_topology() && (refine_surface(), true));
+  budget.end_stage();
+
+  refinement.report_unmet();
+  TetMesh mesh = extract_tets(refinement.delaunay());  // step 8
+  mesh.info.promises = promises_of(options.surface, options.tets);
+  mesh.info.complete = report.succeeded();
+  return mesh;
+}
+
+}  // namespace delvox

@@ -1,0 +1,68 @@
+#include "meshing/extract.h"
+
+namespace delvox {
+namespace {
+
+/// Gives vertices output numbers in the order of their first use.
+class Numbering {
+ public:
+  Numbering(const RestrictedDelaunay& delaunay, std::vector<Point3>& points)
+      : delaunay_(delaunay), points_(points), numbers_(delaunay.vertex_capacity(), kNone) {}
+
+  std::uint32_t operator()(VertexId vertex) {
+    std::uint32_t& number = numbers_[vertex];
+    if (number == kNone) {
+      number = static_cast<std::uint32_t>(points_.size());
+      points_.push_back(delaunay_.point(vertex));
+    }
+    return number;
+  }
+
+ private:
+  const RestrictedDelaunay& delaunay_;
+  std::vector<Point3>& points_;
+  std::vector<std::uint32_t> numbers_;
+};
+
+template <class Visit>
+void for_each_inside_cell(const RestrictedDelaunay& delaunay, const Visit& visit) {
+  for (CellId cell = 0; cell < delaunay.cell_capacity(); ++cell) {
+    if (delaunay.cell(cell).stamp != 0 && delaunay.cell(cell).label != 0) visit(cell);
+  }
+}
+
+/// Triangles of `cell` that face the outside.
+void add_boundary(const RestrictedDelaunay& delaunay, CellId cell, Numbering& number, std::vector<Triangle>& out) {
+  for (int i = 0; i < 4; ++i) {
+    if (delaunay.cell(delaunay.neighbor(cell, i)).label != 0) continue;
+    const auto v = delaunay.vertices(FacetId{cell, i});
+    out.push_back({number(v[0]), number(v[1]), number(v[2])});
+  }
+}
+
+}  // namespace
+
+SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay) {
+  SurfaceMesh mesh;
+  Numbering number(delaunay, mesh.points);
+  for_each_inside_cell(delaunay, [&](CellId cell) { add_boundary(delaunay, cell, number, mesh.triangles); });
+  return mesh;
+}
+
+TetMesh extract_tets(const RestrictedDelaunay& delaunay) {
+  TetMesh mesh;
+  Numbering number(delaunay, mesh.points);
+  for_each_inside_cell(delaunay, [&](CellId cell) {
+    const auto v = delaunay.vertices(cell);
+    mesh.tets.push_back({number(v[0]), number(v[1]), number(v[2]), number(v[3])});
+    mesh.regions.push_back(delaunay.cell(cell).label);
+    add_boundary(delaunay, cell, number, mesh.boundary);
+  });
+  mesh.on_surface.assign(mesh.points.size(), 0);
+  for (const Triangle& triangle : mesh.boundary) {
+    for (std::uint32_t vertex : triangle) mesh.on_surface[vertex] = 1;
+  }
+  return mesh;
+}
+
+}  // namespace delvox

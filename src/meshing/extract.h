@@ -1,0 +1,14 @@
+#pragma once
+
+#include "delaunay/restricted_delaunay.h"
+#include "delvox/core/mesh.h"
+
+namespace delvox {
+
+/// The restricted triangles, oriented outward, with the vertices they use.
+SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay);
+
+/// The cells with a label other than 0, the triangles between them and the outside, and the vertices they use.
+TetMesh extract_tets(const RestrictedDelaunay& delaunay);
+
+}  // namespace delvox

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/restricted_delaunay.h"
+#include "delvox/core/run.h"
+#include "delvox/meshing/criteria.h"
+#include "delvox/oracle/oracle.h"
+#include "meshing/run_budget.h"
+
+namespace delvox {
+
+/// Del S under refinement with its lazy queues (book, 14.1.3): facets that may be restricted, vertices whose umbrella
+/// may have changed, and, once watched, tetrahedra that break a criterion. Entries are not withdrawn when the mesh
+/// changes; they are tested when their turn comes.
+class Refinement {
+ public:
+  Refinement(const Oracle& oracle, const SurfaceCriteria& surface, const RunControl& control, RunReport& report);
+
+  /// Step 1: a sample of every component to start from. Throws NothingToMesh if there is none.
+  void insert_seeds();
+
+  /// Steps 2 and 3 of DelTetSurf with Quality and the deviation bound: removes interior vertices from the surface, then
+  /// splits restricted triangles that are too large or too skinny, until none is left.
+  void refine_surface();
+  /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
+  bool repair_topology();
+
+  /// From now on tetrahedra that break `criteria` are kept in a stack.
+  void watch_tets(const TetCriteria& criteria);
+  /// Step 7: splits the tetrahedra on the stack until it is empty, the surface kept refined throughout.
+  void refine_tets();
+
+  /// Tells the report what could not be met.
+  void report_unmet();
+
+  const RestrictedDelaunay& delaunay() const { return delaunay_; }
+  RunBudget& budget() { return budget_; }
+
+ private:
+  struct WaitingFacet {
+    FacetId facet;
+    std::uint32_t stamp;
+  };
+  struct WaitingTet {
+    CellId cell;
+    std::uint32_t stamp;
+  };
+  enum class Fault { kNone, kSize, kAngle, kDeviation };
+
+  // Surface (surface_refinement.cpp)
+  void enqueue_created();
+  bool treat_facet(FacetId facet);
+  bool remove_interior_vertex_of(FacetId facet);
+  Fault fault_of(FacetId facet, const SurfaceBall& ball) const;
+  bool insert_surface_point(const Point3& p, CellId hint);
+  void mark_dirty(FacetId facet);
+  void commit(VertexKind kind);
+  bool repair_umbrella(VertexId vertex);
+  bool budget_left() { return budget_.go_on(delaunay_.vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
+
+  // Tetrahedra (tet_refinement.cpp)
+  bool bad(CellId cell) const;
+  void split_tet(CellId cell);
+  bool find_encroached_ball(const Star& star, SurfaceBall& largest) const;
+  bool find_new_ball(const Star& star, SurfaceBall& largest) const;
+
+  const Oracle& oracle_;
+  const SurfaceCriteria& surface_;
+  const TetCriteria* tet_criteria_ = nullptr;
+  RunReport& report_;
+  RunBudget budget_;
+  RestrictedDelaunay delaunay_;
+
+  std::vector<WaitingFacet> facets_;  // first in, first out from next_facet_
+  std::size_t next_facet_ = 0;
+  std::vector<WaitingTet> tets_;      // last in, first out
+  std::vector<VertexId> dirty_;
+  std::vector<std::uint8_t> is_dirty_;
+  std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
+  std::size_t too_deviant_ = 0, stuck_ = 0;
+  Point3 deviant_place_, stuck_place_;
+};
+
+}  // namespace delvox

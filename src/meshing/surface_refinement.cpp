@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "delvox/core/errors.h"
+#include "meshing/refinement.h"
+#include "meshing/triangle_shape.h"
+#include "meshing/umbrella.h"
+
+namespace delvox {
+
+Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, const RunControl& control,
+                       RunReport& report)
+    : oracle_(oracle), surface_(surface), report_(report), budget_(control, report), delaunay_(oracle) {}
+
+void Refinement::insert_seeds() {
+  const Seeds seeds = oracle_.seeds([this](const Point3& p) { return surface_.size(p); });
+  if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
+  report_.components = seeds.components;
+  delaunay_.insert_seeds(seeds.points);
+  enqueue_created();
+}
+
+void Refinement::enqueue_created() {
+  for (CellId cell : delaunay_.created()) {
+    const Cell& data = delaunay_.cell(cell);
+    if (tet_criteria_ != nullptr && data.label != 0 && bad(cell)) tets_.push_back({cell, data.stamp});
+    for (int i = 0; i < 4; ++i) {
+      const FacetId facet{cell, i};
+      if (delaunay_.bipolar(facet) && delaunay_.ball(facet) == nullptr) facets_.push_back({facet, data.stamp});
+    }
+  }
+}
+
+void Refinement::commit(VertexKind kind) {
+  delaunay_.commit(kind);
+  enqueue_created();
+}
+
+void Refinement::refine_surface() {
+  while (next_facet_ < facets_.size()) {
+    const WaitingFacet waiting = facets_[next_facet_++];
+    if (next_facet_ == facets_.size()) {
+      facets_.clear();
+      next_facet_ = 0;
+    }
+    if (!delaunay_.alive(waiting.facet.cell, waiting.stamp) || !delaunay_.bipolar(waiting.facet)) continue;
+    if (!treat_facet(waiting.facet)) return;
+  }
+}
+
+/// False when the budget is used up.
+bool Refinement::treat_facet(FacetId facet) {
+  if (remove_interior_vertex_of(facet)) return true;
+  if (delaunay_.ball(facet) != nullptr) return true;  // seen from its other side before
+  const SurfaceBall ball = delaunay_.compute_ball(facet);
+  mark_dirty(facet);
+  const Fault fault = fault_of(facet, ball);
+  if (fault == Fault::kNone) return true;
+  if (fault == Fault::kDeviation && ball.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) {
+    ++too_deviant_;
+    deviant_place_ = ball.center;
+    return true;
+  }
+  if (!budget_left()) return false;
+  if (insert_surface_point(ball.center, facet.cell)) ++report_.surface_insertions;
+  return true;
+}
+
+/// Step 2: a vertex off the surface has no place in a restricted triangle.
+bool Refinement::remove_interior_vertex_of(FacetId facet) {
+  for (VertexId vertex : delaunay_.vertices(facet)) {
+    if (delaunay_.kind(vertex) != VertexKind::kInterior) continue;
+    delaunay_.remove(vertex);
+    ++report_.removals;
+    enqueue_created();
+    return true;
+  }
+  return false;
+}
+
+Refinement::Fault Refinement::fault_of(FacetId facet, const SurfaceBall& ball) const {
+  const double size = surface_.size(ball.center);
+  if (ball.squared_radius > size * size) return Fault::kSize;
+  const auto v = delaunay_.vertices(facet);
+  const TriangleShape shape = triangle_shape(delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]));
+  // sin(smallest angle) = shortest edge / (2 circumradius); a hair stricter, so that what is written still holds.
+  const double sine = std::sin(surface_.min_angle_degrees * std::numbers::pi / 180);
+  if (shape.shortest_squared_edge < 4 * sine * sine * shape.squared_circumradius * (1 + 1e-9)) return Fault::kAngle;
+  if (std::isfinite(surface_.max_deviation)) {
+    const double squared_deviation = ball.squared_radius - shape.squared_circumradius;
+    if (squared_deviation > surface_.max_deviation * surface_.max_deviation) return Fault::kDeviation;
+  }
+  return Fault::kNone;
+}
+
+bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
+  const Star& star = delaunay_.evaluate(p, hint);
+  if (star.duplicate) {
+    ++stuck_;
+    stuck_place_ = p;
+    return false;
+  }
+  for (CellId cell : star.zone) {
+    for (int i = 0; i < 4; ++i) {
+      if (delaunay_.ball({cell, i}) != nullptr) mark_dirty({cell, i});
+    }
+  }
+  commit(VertexKind::kSurface);
+  return true;
+}
+
+void Refinement::mark_dirty(FacetId facet) {
+  for (VertexId vertex : delaunay_.vertices(facet)) {
+    if (vertex >= is_dirty_.size()) is_dirty_.resize(delaunay_.vertex_capacity(), 0);
+    if (is_dirty_[vertex]) continue;
+    is_dirty_[vertex] = 1;
+    dirty_.push_back(vertex);
+  }
+}
+
+bool Refinement::repair_topology() {
+  if (!surface_.topo_disk) return false;
+  bool inserted = false;
+  std::vector<VertexId> round;
+  round.swap(dirty_);
+  for (VertexId vertex : round) {
+    is_dirty_[vertex] = 0;
+    if (!budget_left()) return inserted;
+    inserted |= repair_umbrella(vertex);
+  }
+  return inserted;
+}
+
+/// TopoDisk(p): if T_p is no disk, inserts the centre of its largest surface ball.
+bool Refinement::repair_umbrella(VertexId vertex) {
+  if (delaunay_.kind(vertex) != VertexKind::kSurface) return false;
+  const Umbrella umbrella = find_umbrella(delaunay_, vertex);
+  if (umbrella.disk) return false;
+  SurfaceBall largest;
+  FacetId facet;
+  for (const FacetId& candidate : umbrella.facets) {
+    const SurfaceBall* known = delaunay_.ball(candidate);
+    const SurfaceBall ball = known != nullptr ? *known : delaunay_.compute_ball(candidate);
+    if (ball.squared_radius <= largest.squared_radius) continue;
+    largest = ball;
+    facet = candidate;
+  }
+  if (largest.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) {
+    unrepaired_.push_back(vertex);
+    return false;
+  }
+  if (!insert_surface_point(largest.center, facet.cell)) return false;
+  ++report_.topology_insertions;
+  return true;
+}
+
+void Refinement::report_unmet() {
+  const auto tell = [this](const char* criterion, std::size_t count, const Point3& where, const char* reason,
+                           bool breaks_promise) {
+    if (count > 0) report_.unmet.push_back({criterion, count, where, reason, breaks_promise});
+  };
+  std::size_t broken = 0;
+  Point3 where;
+  std::sort(unrepaired_.begin(), unrepaired_.end());
+  unrepaired_.erase(std::unique(unrepaired_.begin(), unrepaired_.end()), unrepaired_.end());
+  for (VertexId vertex : unrepaired_) {
+    if (delaunay_.kind(vertex) != VertexKind::kSurface || find_umbrella(delaunay_, vertex).disk) continue;
+    ++broken;
+    where = delaunay_.point(vertex);
+  }
+  tell("topology", broken, where, "the triangles at a vertex form no disk at the smallest ball radius", true);
+  tell("deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false);
+  tell("refinement", stuck_, stuck_place_, "a new point coincides with a vertex", true);
+}
+
+}  // namespace delvox

@@ -1,0 +1,121 @@
+#include <algorithm>
+
+#include "meshing/refinement.h"
+
+namespace delvox {
+namespace {
+
+double shortest_squared_edge(const RestrictedDelaunay& delaunay, CellId cell) {
+  const auto v = delaunay.vertices(cell);
+  double shortest = squared_distance(delaunay.point(v[0]), delaunay.point(v[1]));
+  for (int i = 0; i < 4; ++i) {
+    for (int j = std::max(i + 1, 2); j < 4; ++j) {
+      shortest = std::min(shortest, squared_distance(delaunay.point(v[i]), delaunay.point(v[j])));
+    }
+  }
+  return shortest;
+}
+
+/// An edge of the zone's boundary and the star tet on one side of it.
+struct StarEdge {
+  VertexId low, high;
+  std::uint32_t tet;
+};
+
+}  // namespace
+
+void Refinement::watch_tets(const TetCriteria& criteria) {
+  tet_criteria_ = &criteria;
+  tets_.clear();
+  for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) {
+    const Cell& data = delaunay_.cell(cell);
+    if (data.stamp != 0 && data.label != 0 && bad(cell)) tets_.push_back({cell, data.stamp});
+  }
+}
+
+bool Refinement::bad(CellId cell) const {
+  const Circumsphere& sphere = delaunay_.cell(cell).sphere;
+  const double size = tet_criteria_->cell_size(sphere.center);
+  if (sphere.squared_radius > size * size * (1 - 1e-12)) return true;
+  const double bound = tet_criteria_->radius_edge * tet_criteria_->radius_edge * (1 - 1e-9);
+  return sphere.squared_radius > bound * shortest_squared_edge(delaunay_, cell);
+}
+
+void Refinement::refine_tets() {
+  while (!tets_.empty()) {
+    const WaitingTet waiting = tets_.back();
+    tets_.pop_back();
+    if (!delaunay_.alive(waiting.cell, waiting.stamp)) continue;
+    if (!budget_left()) return;
+    split_tet(waiting.cell);
+    refine_surface();
+    if (delaunay_.alive(waiting.cell, waiting.stamp)) tets_.push_back(waiting);
+  }
+}
+
+void Refinement::split_tet(CellId cell) {
+  const Point3 z = delaunay_.cell(cell).sphere.center;
+  const Star& star = delaunay_.evaluate(z, cell);
+  SurfaceBall ball;
+  // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
+  if (star.duplicate || find_encroached_ball(star, ball) || find_new_ball(star, ball)) {
+    if (!star.duplicate && insert_surface_point(ball.center, cell)) {
+      ++report_.surface_insertions;
+    } else {
+      ++stuck_;
+      stuck_place_ = z;
+      tets_.clear();
+    }
+    return;
+  }
+  commit(VertexKind::kInterior);  // 7(b)
+  ++report_.interior_insertions;
+}
+
+/// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z.
+bool Refinement::find_encroached_ball(const Star& star, SurfaceBall& largest) const {
+  for (CellId cell : star.zone) {
+    for (int i = 0; i < 4; ++i) {
+      const SurfaceBall* ball = delaunay_.ball({cell, i});
+      if (ball == nullptr || ball->squared_radius <= largest.squared_radius) continue;
+      if (squared_distance(ball->center, star.apex) < ball->squared_radius) largest = *ball;
+    }
+  }
+  return largest.squared_radius > 0;
+}
+
+bool Refinement::find_new_ball(const Star& star, SurfaceBall& largest) const {
+  const auto consider = [&](const Circumsphere& a, Label label_a, const Circumsphere& b, Label label_b,
+                            const Point3& corner) {
+    const Point3 center = delaunay_.dual_crossing(a.center, label_a, b.center, label_b);
+    const double squared_radius = squared_distance(center, corner);
+    if (squared_radius > largest.squared_radius) largest = {center, squared_radius};
+  };
+  bool uniform = true;
+  for (const Star::Tet& tet : star.tets) {
+    uniform &= tet.label == star.tets.front().label;
+    const Cell& outer = delaunay_.cell(tet.outer.cell);
+    if (outer.label == tet.label || delaunay_.bipolar(tet.outer)) continue;
+    consider(outer.sphere, outer.label, tet.sphere, tet.label, delaunay_.point(tet.vertices[0]));
+  }
+  if (!uniform) {
+    std::vector<StarEdge> edges;
+    for (std::uint32_t t = 0; t < star.tets.size(); ++t) {
+      for (int i = 0; i < 3; ++i) {
+        const auto [low, high] = std::minmax(star.tets[t].vertices[i], star.tets[t].vertices[(i + 1) % 3]);
+        edges.push_back({low, high, t});
+      }
+    }
+    std::sort(edges.begin(), edges.end(), [](const StarEdge& a, const StarEdge& b) {
+      return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.tet < b.tet;
+    });
+    for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
+      const Star::Tet& a = star.tets[edges[i].tet];
+      const Star::Tet& b = star.tets[edges[i + 1].tet];
+      if (a.label != b.label) consider(a.sphere, a.label, b.sphere, b.label, star.apex);
+    }
+  }
+  return largest.squared_radius > 0;
+}
+
+}  // namespace delvox

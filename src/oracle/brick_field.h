@@ -1,0 +1,81 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "delvox/core/geometry.h"
+#include "delvox/volume/level_set.h"
+
+namespace delvox {
+
+/// Signed samples of a padded volume, flattened where the surface passes: a table of 8x8x8-voxel bricks, each all
+/// outside, all inside, or mixed with a copied block of 9x9x9 samples. Coordinates are those of the padded grid:
+/// sample (0,0,0) is the padding corner, voxel (i,j,k) of the image is sample (i+1,j+1,k+1).
+class BrickField {
+ public:
+  static constexpr int kBrick = 8, kBlock = kBrick + 1, kBlockSize = kBlock * kBlock * kBlock;
+
+  BrickField(const Volume& volume, const LevelSet& level_set);
+
+  /// Number of samples along each axis, padding included.
+  const std::array<int, 3>& size() const { return size_; }
+  const std::array<int, 3>& brick_counts() const { return brick_counts_; }
+  bool contains(const Point3& u) const {
+    return u.x >= 0 && u.x <= size_[0] - 1 && u.y >= 0 && u.y <= size_[1] - 1 && u.z >= 0 && u.z <= size_[2] - 1;
+  }
+
+  enum class BrickState { kOutside, kInside, kMixed };
+  BrickState state(const std::array<int, 3>& brick) const { return state_of(table_[brick_index(brick)]); }
+  /// Samples of a mixed brick, i fastest.
+  const float* block(const std::array<int, 3>& brick) const {
+    return blocks_.data() + static_cast<std::size_t>(table_[brick_index(brick)]) * kBlockSize;
+  }
+
+  /// The eight samples around a cell, bit 0 of the index along x, bit 1 along y, bit 2 along z; false if the cell lies
+  /// in a pure brick (then `inside` tells which).
+  struct CellSamples {
+    std::array<float, 8> value;
+    bool mixed_brick = false;
+    bool inside = false;
+  };
+  CellSamples cell_samples(const std::array<int, 3>& cell) const;
+  std::array<int, 3> cell_of(const Point3& u) const;
+
+  /// Trilinear value minus level; in pure bricks a large number of the right sign. pre: contains(u).
+  double value(const Point3& u) const;
+  bool inside(const Point3& u) const { return value(u) > 0; }
+  /// Whether u lies in a brick whose values are known.
+  bool in_mixed_brick(const Point3& u) const;
+  /// Gradient in grid coordinates. pre: in_mixed_brick(u).
+  Vector3 gradient(const Point3& u) const;
+  double level() const { return level_; }
+
+ private:
+  static constexpr std::int32_t kOutsideBrick = -1, kInsideBrick = -2;
+  static BrickState state_of(std::int32_t entry) {
+    return entry == kOutsideBrick ? BrickState::kOutside
+           : entry == kInsideBrick ? BrickState::kInside
+                                   : BrickState::kMixed;
+  }
+  std::size_t brick_index(const std::array<int, 3>& b) const {
+    return (static_cast<std::size_t>(b[2]) * brick_counts_[1] + b[1]) * brick_counts_[0] + b[0];
+  }
+  void add_slab(const float* slab, const std::array<int, 3>& slab_size);
+
+  double level_;
+  std::array<int, 3> size_, brick_counts_;
+  std::vector<std::int32_t> table_;  // per brick: number of its block, or one of the constants
+  std::vector<float> blocks_;
+};
+
+/// Trilinear interpolation of eight samples (bit 0 of the index along x) at (x, y, z) in [0, 1]^3.
+template <class Samples>
+double trilinear(const Samples& s, double x, double y, double z) {
+  const double s00 = s[0] + x * (static_cast<double>(s[1]) - s[0]), s10 = s[2] + x * (static_cast<double>(s[3]) - s[2]);
+  const double s01 = s[4] + x * (static_cast<double>(s[5]) - s[4]), s11 = s[6] + x * (static_cast<double>(s[7]) - s[6]);
+  const double s0 = s00 + y * (s10 - s00), s1 = s01 + y * (s11 - s01);
+  return s0 + z * (s1 - s0);
+}
+
+}  // namespace delvox

@@ -1,0 +1,186 @@
+#include "delvox/oracle/isosurface_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "delvox/core/errors.h"
+#include "oracle/bracketed_root.h"
+#include "oracle/brick_field.h"
+#include "oracle/voxel_seeds.h"
+
+namespace delvox {
+namespace {
+
+class IsosurfaceOracle final : public SmoothOracle {
+ public:
+  IsosurfaceOracle(std::shared_ptr<const BrickField> field, const Affine3& grid_to_world)
+      : field_(std::move(field)), to_world_(grid_to_world), to_grid_(grid_to_world.inverse()) {
+    const auto& n = field_->size();
+    for (int corner = 0; corner < 8; ++corner) {
+      bounds_.extend(to_world_({corner & 1 ? n[0] - 1.0 : 0.0, corner & 2 ? n[1] - 1.0 : 0.0,
+                                corner & 4 ? n[2] - 1.0 : 0.0}));
+    }
+  }
+
+  Box3 bounds() const override { return bounds_; }
+
+  Label label(const Point3& p) const override {
+    const Point3 u = to_grid_(p);
+    return field_->contains(u) && field_->inside(u) ? 1 : 0;
+  }
+
+  double value(const Point3& p) const override {
+    const Point3 u = to_grid_(p);
+    return field_->contains(u) ? field_->value(u) : -std::abs(field_->level()) - 1;
+  }
+
+  Vector3 gradient(const Point3& p) const override {
+    const Point3 u = to_grid_(p);
+    return field_->contains(u) ? to_grid_.linear_transposed(field_->gradient(u)) : Vector3{};
+  }
+
+  Point3 intersect(const Point3& a, const Point3& b) const override {
+    Point3 low = to_grid_(a), high = to_grid_(b);
+    clip(low, high);
+    return to_world_(crossing_between(low, high));
+  }
+
+  std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const override;
+
+  Seeds seeds(const Spacing& spacing) const override {
+    Seeds seeds = voxel_seeds(*field_, to_world_, spacing);
+    for (Point3& p : seeds.points) p = to_world_(p);
+    return seeds;
+  }
+
+  std::unique_ptr<Oracle> clone() const override { return std::make_unique<IsosurfaceOracle>(*this); }
+
+ private:
+  /// Moves the ends of a segment to the padded box; false if it misses the box.
+  bool clip(Point3& a, Point3& b) const;
+  Point3 crossing_between(Point3 a, Point3 b) const;
+  void crossings_in_cell(const Point3& a, const Vector3& ab, double t0, double t1, double& value_at_t0,
+                         std::vector<Point3>& out) const;
+
+  std::shared_ptr<const BrickField> field_;
+  Affine3 to_world_, to_grid_;
+  Box3 bounds_;
+};
+
+bool IsosurfaceOracle::clip(Point3& a, Point3& b) const {
+  double enter = 0, leave = 1;
+  const Vector3 ab = b - a;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double last = field_->size()[axis] - 1;
+    if (ab[axis] == 0) {
+      if (a[axis] < 0 || a[axis] > last) return false;
+      continue;
+    }
+    const double t0 = -a[axis] / ab[axis], t1 = (last - a[axis]) / ab[axis];
+    enter = std::max(enter, std::min(t0, t1));
+    leave = std::min(leave, std::max(t0, t1));
+  }
+  if (!(enter <= leave)) return false;
+  const auto clamped = [&](Point3 p) {
+    for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], 0.0, field_->size()[axis] - 1.0);
+    return p;
+  };
+  const Point3 start = a;
+  if (leave < 1) b = clamped(start + leave * ab);
+  if (enter > 0) a = clamped(start + enter * ab);
+  return true;
+}
+
+Point3 IsosurfaceOracle::crossing_between(Point3 a, Point3 b) const {
+  const bool a_inside = field_->inside(a);
+  // Bisect on labels until both ends are within a voxel and have known values (pure bricks only know their side).
+  while (squared_distance(a, b) > 1 || !field_->in_mixed_brick(a) || !field_->in_mixed_brick(b)) {
+    const Point3 middle = midpoint(a, b);
+    if (middle == a || middle == b) break;
+    (field_->inside(middle) == a_inside ? a : b) = middle;
+  }
+  const double value_a = field_->value(a), value_b = field_->value(b);
+  const Vector3 ab = b - a;
+  const double scale = std::abs(field_->level()) + std::min(std::abs(value_a), std::abs(value_b));
+  const double t =
+      bracketed_root([&](double s) { return field_->value(a + s * ab); }, 0, value_a, 1, value_b, scale);
+  return a + t * ab;
+}
+
+/// Along a line inside one cell the trilinear function is a cubic: its roots lie between its critical points.
+void IsosurfaceOracle::crossings_in_cell(const Point3& a, const Vector3& ab, double t0, double t1, double& value_at_t0,
+                                         std::vector<Point3>& out) const {
+  const std::array<int, 3> cell = field_->cell_of(a + (0.5 * (t0 + t1)) * ab);
+  const BrickField::CellSamples samples = field_->cell_samples(cell);
+  if (!samples.mixed_brick) {
+    value_at_t0 = samples.inside ? 1 : -1;
+    return;
+  }
+  const auto value = [&](double t) {
+    const Point3 u = a + t * ab;
+    return trilinear(samples.value, u.x - cell[0], u.y - cell[1], u.z - cell[2]) - field_->level();
+  };
+  // Cubic through four equidistant values; s runs from 0 to 1 over the cell.
+  const double dt = t1 - t0;
+  const double f0 = value(t0), f1 = value(t0 + dt / 3), f2 = value(t0 + 2 * dt / 3), f3 = value(t1);
+  const double c1 = (-11 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 2, c2 = (18 * f0 - 45 * f1 + 36 * f2 - 9 * f3) / 2;
+  const double c3 = (-9 * f0 + 27 * f1 - 27 * f2 + 9 * f3) / 2;
+  std::vector<double> stops{t0};
+  const double discriminant = c2 * c2 - 3 * c1 * c3;
+  if (discriminant > 0) {
+    const double q = -(c2 + std::copysign(std::sqrt(discriminant), c2));
+    double r0 = c3 != 0 ? q / (3 * c3) : -1, r1 = q != 0 ? c1 / q : -1;
+    if (r0 > r1) std::swap(r0, r1);
+    for (double r : {r0, r1}) {
+      if (r > 0 && r < 1) stops.push_back(t0 + r * dt);
+    }
+  }
+  stops.push_back(t1);
+  double before = value_at_t0;
+  const double scale = std::abs(field_->level()) + std::min(std::abs(f0), std::abs(f3));
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const double after = value(stops[i + 1]);
+    if ((before > 0) != (after > 0)) {
+      out.push_back(to_world_(a + bracketed_root(value, stops[i], before, stops[i + 1], after, scale) * ab));
+    }
+    before = after;
+  }
+  value_at_t0 = before;
+}
+
+std::vector<Point3> IsosurfaceOracle::intersect_all(const Point3& world_a, const Point3& world_b) const {
+  std::vector<Point3> result;
+  Point3 a = to_grid_(world_a), b = to_grid_(world_b);
+  if (!clip(a, b)) return result;
+  const Vector3 ab = b - a;
+  std::vector<double> stops{0, 1};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = std::min(a[axis], b[axis]), high = std::max(a[axis], b[axis]);
+    for (double plane = std::floor(low) + 1; plane < high; ++plane) stops.push_back((plane - a[axis]) / ab[axis]);
+  }
+  std::sort(stops.begin(), stops.end());
+  double value = field_->value(a);
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    if (stops[i] < stops[i + 1]) crossings_in_cell(a, ab, stops[i], stops[i + 1], value, result);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::unique_ptr<SmoothOracle> make_isosurface_oracle(const Volume& volume, const Isosurface& surface) {
+  const LevelSet level_set(surface);
+  const float highest = level_set.sign > 0 ? volume.max() : -volume.min();
+  if (!level_set.inside(highest)) {
+    throw NothingToMesh("isovalue " + std::to_string(surface.isovalue) + ": no voxel is " +
+                        (surface.below ? "at or below" : "at or above") + " it (the volume's range is " +
+                        std::to_string(volume.min()) + " to " + std::to_string(volume.max()) +
+                        "); choose one inside the range, see delvox info");
+  }
+  auto field = std::make_shared<const BrickField>(volume, level_set);
+  Affine3 padding;  // grid coordinates start one sample before the image
+  for (int axis = 0; axis < 3; ++axis) padding.rows[axis][3] = -1;
+  return std::make_unique<IsosurfaceOracle>(std::move(field), compose(volume.header().index_to_world, padding));
+}
+
+}  // namespace delvox

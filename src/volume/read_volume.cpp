@@ -1,0 +1,88 @@
+#include "delvox/volume/read_volume.h"
+
+#include <algorithm>
+#include <new>
+#include <string>
+#include <system_error>
+
+#include "volume/byte_source.h"
+#include "volume/read_support.h"
+#include "volume/readers.h"
+
+namespace delvox {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kBytesToRecognise = 1024;
+
+/// The extension in small letters, ".gz" included: ".nii.gz".
+std::string full_extension(const fs::path& path) {
+  std::string extension = path.extension().string();
+  if (extension == ".gz") extension = path.stem().extension().string() + extension;
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+/// The header x.hdr or x.hdr.gz that belongs to a file x.img or x.img.gz; empty if there is none.
+fs::path header_of_pair(const fs::path& image_path) {
+  fs::path stem = image_path;
+  if (stem.extension() == ".gz") stem.replace_extension();
+  for (const char* extension : {".hdr", ".hdr.gz"}) {
+    fs::path candidate = stem;
+    candidate.replace_extension(extension);
+    std::error_code error;
+    if (fs::exists(candidate, error)) return candidate;
+  }
+  return {};
+}
+
+[[noreturn]] void fail_unrecognised(const fs::path& path, const std::string& start) {
+  const std::string extension = full_extension(path);
+  const auto has = [&](std::string_view magic, std::size_t offset) {
+    return start.size() >= offset + magic.size() && start.compare(offset, magic.size(), magic) == 0;
+  };
+  const std::string convert = "convert it to NIfTI first";
+  if (has("DICM", 128)) fail_input(path, "it is DICOM, which is not read", convert + ", e.g. with dcm2niix");
+  if (has("NRRD", 0)) fail_input(path, "it is NRRD, which is not read", convert);
+  if (has("ObjectType", 0) || has("NDims", 0)) fail_input(path, "it is MetaImage, which is not read", convert);
+  if (extension == ".nii" || extension == ".nii.gz" || extension == ".hdr" || extension == ".hdr.gz") {
+    fail_input(path, start.size() < 348 ? "truncated: too short for a NIfTI header"
+                                        : "wrong magic: the content is not NIfTI (an Analyze file?)",
+               "copy the file again or convert it");
+  }
+  if (extension == ".inr" || extension == ".inr.gz") {
+    fail_input(path, "wrong magic: the content is not Inrimage-4", "copy the file again or convert it");
+  }
+  if (extension == ".img" || extension == ".img.gz") {
+    fail_input(path, "its header is missing: no .hdr beside it", "keep .hdr and .img together");
+  }
+  fail_input(path, "not a volume format that is known",
+             "give NIfTI, Inrimage, TIFF, OpenVDB or raw samples with a JSON sidecar");
+}
+
+Volume read_recognised(const fs::path& path, const ReadVolumeOptions& options) {
+  ByteSource source(path);
+  const std::string start = source.peek(kBytesToRecognise);
+  if (looks_like_nifti(start)) return read_nifti(std::move(source), options);
+  if (looks_like_inrimage(start)) return read_inrimage(std::move(source), options);
+  const std::string extension = full_extension(path);
+  if (extension == ".img" || extension == ".img.gz") {
+    const fs::path header = header_of_pair(path);
+    if (!header.empty()) return read_recognised(header, options);
+  }
+  fail_unrecognised(path, start);
+}
+
+}  // namespace
+
+Volume read_volume(const fs::path& path, const ReadVolumeOptions& options) {
+  try {
+    return read_recognised(path, options);
+  } catch (const std::bad_alloc&) {
+    fail_input(path, "there is not enough memory for it", "crop or resample the file first");
+  }
+}
+
+}  // namespace delvox
