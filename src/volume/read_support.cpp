@@ -27,20 +27,6 @@ std::string gigabytes(double bytes) {
   return text;
 }
 
-void check_tally(const std::filesystem::path& path, const ConversionTally& tally, SampleType type, std::size_t count,
-                 VolumeHeader& header) {
-  if (tally.not_finite > 0) {
-    fail_input(path,
-               std::to_string(tally.not_finite) + " of " + std::to_string(count) +
-                   " samples are NaN, infinite or beyond float32",
-               "replace them first, e.g. by the background value");
-  }
-  if (tally.inexact > 0) {
-    header.warnings.push_back(std::to_string(tally.inexact) + " samples of type " + to_string(type) +
-                              " were rounded to float32");
-  }
-}
-
 }  // namespace
 
 void fail_input(const std::filesystem::path& path, const std::string& cause, const std::string& mend) {
@@ -70,30 +56,52 @@ std::size_t checked_voxel_count(const std::filesystem::path& path, const std::ar
   return static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) * static_cast<std::size_t>(dims[2]);
 }
 
-std::vector<float> read_samples(ByteSource& source, const SampleLayout& layout, std::size_t count,
-                                VolumeHeader& header) {
-  const std::size_t sample_size = size_of(layout.type);
-  const std::uint64_t payload = static_cast<std::uint64_t>(count) * sample_size;
-  if (layout.offset > source.capacity() || payload > source.capacity() - layout.offset) {
-    fail_input(source.path(),
-               "truncated: the header declares " + std::to_string(payload) + " bytes of samples from byte " +
-                   std::to_string(layout.offset) + ", the file can hold " + std::to_string(source.capacity()),
-               "copy or download the file again");
+void check_tally(const std::filesystem::path& path, const ConversionTally& tally, SampleType type,
+                 VolumeHeader& header) {
+  if (tally.not_finite > 0) {
+    fail_input(path,
+               std::to_string(tally.not_finite) + " samples are NaN, infinite or beyond float32",
+               "replace them first, e.g. by the background value");
   }
+  if (tally.inexact > 0) {
+    header.warnings.push_back(std::to_string(tally.inexact) + " samples of type " + to_string(type) +
+                              " were rounded to float32");
+  }
+}
+
+void check_payload(const ByteSource& source, const SampleLayout& layout, std::size_t count) {
+  const std::uint64_t payload = static_cast<std::uint64_t>(count) * size_of(layout.type);
+  const std::uint64_t capacity = source.capacity();
+  if (layout.offset <= capacity && payload <= capacity - layout.offset) return;
+  fail_input(source.path(),
+             "truncated: the header declares " + std::to_string(payload) + " bytes of samples from byte " +
+                 std::to_string(layout.offset) + ", the file can hold " + std::to_string(capacity),
+             "copy or download the file again");
+}
+
+void read_sample_run(ByteSource& source, const SampleLayout& layout, std::size_t count, float* out,
+                     ConversionTally& tally) {
+  check_payload(source, layout, count);
   if (layout.offset < source.position()) fail_input(source.path(), "the samples overlap the header", "convert it again");
   source.skip(layout.offset - source.position(), "the data before the samples");
-  std::vector<float> samples(count);
   constexpr std::size_t kSamplesPerPiece = std::size_t{1} << 16;
+  const std::size_t sample_size = size_of(layout.type);
   std::vector<unsigned char> piece(std::min(kSamplesPerPiece, count) * sample_size);
-  ConversionTally tally;
   for (std::size_t done = 0; done < count;) {
     const std::size_t n = std::min(kSamplesPerPiece, count - done);
     source.read_exactly(piece.data(), n * sample_size, "the samples");
-    convert_samples(piece.data(), n, layout.type, layout.big_endian, layout.slope, layout.intercept,
-                    samples.data() + done, tally);
+    convert_samples(piece.data(), n, layout.type, layout.big_endian, layout.slope, layout.intercept, out + done, tally);
     done += n;
   }
-  check_tally(source.path(), tally, layout.type, count, header);
+}
+
+std::vector<float> read_samples(ByteSource& source, const SampleLayout& layout, std::size_t count,
+                                VolumeHeader& header) {
+  check_payload(source, layout, count);
+  std::vector<float> samples(count);
+  ConversionTally tally;
+  read_sample_run(source, layout, count, samples.data(), tally);
+  check_tally(source.path(), tally, layout.type, header);
   return samples;
 }
 

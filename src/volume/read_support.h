@@ -13,6 +13,7 @@ namespace delvox {
 
 class ByteSource;
 enum class SampleType;
+struct ConversionTally;
 
 /// Throws InputError "path: cause; mend", on one line whatever characters the parts contain.
 [[noreturn]] void fail_input(const std::filesystem::path& path, const std::string& cause, const std::string& mend);
@@ -28,6 +29,16 @@ struct SampleLayout {
   std::uint64_t offset = 0;  ///< of the first sample, from the start of the (inflated) data
   double slope = 1, intercept = 0;
 };
+
+/// Reads `count` samples as float32 from where layout says. Checks that the file can hold them, but after `out` was
+/// allocated: callers with a size from a header use read_samples. Throws InputError.
+void read_sample_run(ByteSource& source, const SampleLayout& layout, std::size_t count, float* out,
+                     ConversionTally& tally);
+/// Throws InputError if a sample is not finite; appends to header.warnings if float32 cannot hold them exactly.
+void check_tally(const std::filesystem::path& path, const ConversionTally& tally, SampleType type,
+                 VolumeHeader& header);
+/// Throws InputError unless the file can hold `count` samples.
+void check_payload(const ByteSource& source, const SampleLayout& layout, std::size_t count);
 
 /// Reads `count` samples as float32, appending to header.warnings if float32 cannot hold them exactly.
 /// Checks that the file can hold them before anything is allocated. Throws InputError, also for NaN and infinity.

@@ -1,10 +1,12 @@
 #include "delvox/volume/read_volume.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <string>
 #include <system_error>
 
+#include "delvox/core/errors.h"
 #include "volume/byte_source.h"
 #include "volume/read_support.h"
 #include "volume/readers.h"
@@ -45,6 +47,9 @@ fs::path header_of_pair(const fs::path& image_path) {
   };
   const std::string convert = "convert it to NIfTI first";
   if (has("DICM", 128)) fail_input(path, "it is DICOM, which is not read", convert + ", e.g. with dcm2niix");
+  if (looks_like_tiff(start) || looks_like_vdb(start)) {
+    fail_input(path, "gzip around a format that compresses by itself", "gunzip it first");
+  }
   if (has("NRRD", 0)) fail_input(path, "it is NRRD, which is not read", convert);
   if (has("ObjectType", 0) || has("NDims", 0)) fail_input(path, "it is MetaImage, which is not read", convert);
   if (extension == ".nii" || extension == ".nii.gz" || extension == ".hdr" || extension == ".hdr.gz") {
@@ -55,6 +60,9 @@ fs::path header_of_pair(const fs::path& image_path) {
   if (extension == ".inr" || extension == ".inr.gz") {
     fail_input(path, "wrong magic: the content is not Inrimage-4", "copy the file again or convert it");
   }
+  if (extension == ".tif" || extension == ".tiff" || extension == ".vdb" || extension == ".json") {
+    fail_input(path, "wrong magic: the content is not " + extension.substr(1), "copy the file again or convert it");
+  }
   if (extension == ".img" || extension == ".img.gz") {
     fail_input(path, "its header is missing: no .hdr beside it", "keep .hdr and .img together");
   }
@@ -63,10 +71,20 @@ fs::path header_of_pair(const fs::path& image_path) {
 }
 
 Volume read_recognised(const fs::path& path, const ReadVolumeOptions& options) {
+  std::error_code error;
+  if (fs::is_directory(path, error)) return read_tiff_folder(path, options);
+  if (!fs::exists(path, error) && path.native().find_first_of("*?[") != std::string::npos) {
+    std::vector<fs::path> files = files_matching(path);
+    if (files.size() == 1) return read_recognised(files[0], options);
+    return read_tiff_files(path, std::move(files), options);
+  }
   ByteSource source(path);
   const std::string start = source.peek(kBytesToRecognise);
   if (looks_like_nifti(start)) return read_nifti(std::move(source), options);
   if (looks_like_inrimage(start)) return read_inrimage(std::move(source), options);
+  if (looks_like_vdb(start) && !source.compressed()) return read_vdb(std::move(source), options);
+  if (looks_like_tiff(start) && !source.compressed()) return read_tiff_files(path, {path}, options);
+  if (looks_like_raw_json(start)) return read_raw_json(std::move(source), options);
   const std::string extension = full_extension(path);
   if (extension == ".img" || extension == ".img.gz") {
     const fs::path header = header_of_pair(path);
@@ -78,6 +96,12 @@ Volume read_recognised(const fs::path& path, const ReadVolumeOptions& options) {
 }  // namespace
 
 Volume read_volume(const fs::path& path, const ReadVolumeOptions& options) {
+  if (options.spacing) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double spacing = (*options.spacing)[axis];
+      if (!(spacing > 0) || !std::isfinite(spacing)) throw OptionError("--spacing: give positive lengths in mm");
+    }
+  }
   try {
     return read_recognised(path, options);
   } catch (const std::bad_alloc&) {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "delvox/volume/read_volume.h"
 #include "volume/byte_source.h"
@@ -12,9 +13,22 @@ namespace delvox {
 /// InputError or OptionError.
 Volume read_nifti(ByteSource source, const ReadVolumeOptions& options);
 Volume read_inrimage(ByteSource source, const ReadVolumeOptions& options);
+Volume read_raw_json(ByteSource source, const ReadVolumeOptions& options);
+Volume read_vdb(ByteSource source, const ReadVolumeOptions& options);
+
+/// Slices in this order; `name` is what errors call the whole.
+Volume read_tiff_files(const std::filesystem::path& name, std::vector<std::filesystem::path> files,
+                       const ReadVolumeOptions& options);
+/// The TIFF files of a folder in natural order.
+Volume read_tiff_folder(const std::filesystem::path& folder, const ReadVolumeOptions& options);
+/// The files that match a pattern of the shell, in natural order. Throws InputError if there is none.
+std::vector<std::filesystem::path> files_matching(const std::filesystem::path& pattern);
 
 /// Whether a file that begins with these bytes (at least 348 for NIfTI-1) is in the format.
 bool looks_like_nifti(std::string_view start);
 bool looks_like_inrimage(std::string_view start);
+bool looks_like_tiff(std::string_view start);
+bool looks_like_raw_json(std::string_view start);
+bool looks_like_vdb(std::string_view start);
 
 }  // namespace delvox
