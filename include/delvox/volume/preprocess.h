@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "delvox/volume/volume.h"
+
+namespace delvox {
+
+// What may be done to a volume before meshing. Every function returns a new volume whose samples stay where they were in
+// the world: only the affine tells where, so it changes with the grid. Deterministic, whatever the number of threads.
+
+/// Voxels [begin, end) along i, j, k.
+struct IndexBox {
+  std::array<int, 3> begin{0, 0, 0};
+  std::array<int, 3> end{0, 0, 0};
+  friend bool operator==(const IndexBox&, const IndexBox&) = default;
+};
+
+/// The part of a volume inside the box, which is clipped to the image.
+/// Throws NothingToMesh: nothing is left.
+Volume crop(const Volume& volume, const IndexBox& box);
+
+/// The smallest index box with all voxels whose centers lie in a world box (mm, the volume's frame) and in the image.
+/// On an oblique image it holds more than the world box: it must be a box of indices. Empty if they do not meet.
+IndexBox index_box(const Volume& volume, const Box3& world);
+
+/// What `--crop` takes: "x0:x1,y0:y1,z0:z1", voxel indices, half open; with the suffix "mm" world coordinates, closed.
+/// A bound left out ("10:,:,:50") is the image's own. Clipped to the image; may be empty (crop refuses that).
+/// Throws OptionError: the text does not parse.
+IndexBox parse_crop(const Volume& volume, std::string_view text);
+
+struct SmoothOptions {
+  double sigma_mm = 0;  ///< standard deviation of the Gaussian; 0 leaves the volume as it is
+};
+
+/// Gaussian smoothing along each grid axis with sigma / spacing voxels, truncated at 4 sigma, the kernel normalised, edge
+/// samples repeated outside (scipy.ndimage.gaussian_filter, mode "nearest"). A sheared affine is treated as if its axes
+/// were orthogonal.
+/// Throws OptionError: sigma negative, not finite, or beyond the extent of the image.
+Volume smooth(const Volume& volume, const SmoothOptions& options);
+
+struct ResampleOptions {
+  double spacing_mm = 0;  ///< of the result along all three axes
+  bool prefilter = true;  ///< smooth first along axes that get coarser
+};
+
+/// Trilinear interpolation on an isotropic grid with the same axis directions. The field of view (voxels with their full
+/// extent) is covered and keeps its middle, so the outermost voxels stick out by under half a new voxel; beyond the
+/// first and last voxel centers the edge samples are repeated. Along axes that get coarser, detail that the new grid
+/// cannot hold is smoothed away first: full width at half maximum sqrt(new^2 - old^2) (Cardoso et al., MICCAI 2015).
+/// Throws OptionError: spacing not positive and finite, more than 2^31 voxels.
+Volume resample(const Volume& volume, const ResampleOptions& options);
+
+/// The same samples with the order along one axis (0 to 2) reversed, at the same world positions.
+Volume flip_axis(const Volume& volume, int axis);
+
+/// The same samples with axis a of the result being axis order[a] of the volume, at the same world positions.
+/// pre: order is a permutation of 0, 1, 2.
+Volume permute_axes(const Volume& volume, const std::array<int, 3>& order);
+
+}  // namespace delvox

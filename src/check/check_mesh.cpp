@@ -1,0 +1,214 @@
+#include "delvox/check/check_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "check/element_quality.h"
+#include "check/exact_orientation.h"
+#include "check/point_checks.h"
+#include "check/report_builder.h"
+#include "check/surface_topology.h"
+#include "check/tet_topology.h"
+
+namespace delvox {
+namespace {
+
+using check::Precision;
+using check::ReportBuilder;
+using check::Tally;
+
+template <class Cell>
+Tally invalid_indices(const std::vector<Cell>& cells, std::size_t point_count) {
+  Tally faults;
+  for (const Cell& cell : cells) {
+    if (std::any_of(cell.begin(), cell.end(), [&](std::uint32_t v) { return v >= point_count; })) faults.add({});
+  }
+  return faults;
+}
+
+template <class Cell>
+Tally orphan_points(const std::vector<Point3>& points, const std::vector<Cell>& cells) {
+  std::vector<bool> used(points.size(), false);
+  for (const Cell& cell : cells) {
+    for (std::uint32_t v : cell) used[v] = true;
+  }
+  Tally orphans;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!used[i]) orphans.add(points[i]);
+  }
+  return orphans;
+}
+
+Tally non_positive_tets(const TetMesh& mesh) {
+  Tally faults;
+  for (const Tet& t : mesh.tets) {
+    const Point3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
+    if (check::orientation(a, b, c, d) <= 0) faults.add(0.25 * ((a + b) + (c + d)));
+  }
+  return faults;
+}
+
+class MeshChecker {
+ public:
+  MeshChecker(const Mesh& mesh, const CheckOptions& options)
+      : tets_(std::get_if<TetMesh>(&mesh)),
+        surface_(std::get_if<SurfaceMesh>(&mesh)),
+        points_(tets_ ? tets_->points : surface_->points),
+        info_(tets_ ? tets_->info : surface_->info),
+        options_(options),
+        bounds_(options.bounds.value_or(info_.promises)),
+        builder_(report_) {}
+
+  CheckReport run() {
+    Tally incomplete;
+    if (!info_.complete) incomplete.add({});
+    builder_.count("complete run", incomplete, info_.complete ? "" : "the mesh says that a limit stopped its run");
+    if (!check_arrays()) return std::move(report_);
+    precision_ = coordinate_precision();
+    check_points();
+    if (tets_ != nullptr) check_tets();
+    triangles_ = tets_ != nullptr ? std::span<const Triangle>(tet_topology_.boundary) : surface_->triangles;
+    check_surface_topology();
+    check_bounds();
+    return std::move(report_);
+  }
+
+ private:
+  bool check_arrays() {
+    Tally not_finite, nothing;
+    for (const Point3& p : points_) {
+      if (!is_finite(p)) not_finite.add({});
+    }
+    const std::size_t cells = tets_ != nullptr ? tets_->tets.size() : surface_->triangles.size();
+    if (cells == 0) nothing.add({});
+    Tally invalid = tets_ != nullptr ? invalid_indices(tets_->tets, points_.size())
+                                     : invalid_indices(surface_->triangles, points_.size());
+    if (tets_ != nullptr) {
+      invalid.count += invalid_indices(tets_->boundary, points_.size()).count;
+      if (!tets_->regions.empty() && tets_->regions.size() != tets_->tets.size()) invalid.add({});
+    }
+    builder_.count("not empty", nothing);
+    builder_.count("finite coordinates", not_finite);
+    builder_.count("valid indices", invalid);
+    return not_finite.count + invalid.count + nothing.count == 0;
+  }
+
+  Precision coordinate_precision() const {
+    double largest = 0;
+    for (const Point3& p : points_) largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    return {std::sqrt(3.0) * options_.coordinate_error * largest};
+  }
+
+  void check_points() {
+    builder_.count("no duplicate points", check::duplicate_points(points_, 0));
+    if (precision_.displacement_mm > 0) {
+      builder_.count("points apart at the format's precision",
+                     check::duplicate_points(points_, precision_.displacement_mm));
+    }
+    builder_.count("no orphan points", tets_ != nullptr ? orphan_points(points_, tets_->tets)
+                                                        : orphan_points(points_, surface_->triangles));
+    report_.statistics.points = points_.size();
+  }
+
+  void check_tets() {
+    builder_.count("positive tets", non_positive_tets(*tets_));
+    tet_topology_ = check::tet_topology(*tets_);
+    builder_.count("no duplicate tets", tet_topology_.duplicate_tets);
+    builder_.count("faces in one or two tets", tet_topology_.crowded_faces);
+    builder_.count("tets on both sides of a face", tet_topology_.folded_faces);
+    if (tets_->boundary.empty()) {
+      builder_.not_applicable("boundary list", "the mesh lists no boundary triangles");
+    } else {
+      builder_.count("boundary list", check::boundary_list_faults(*tets_, tet_topology_));
+    }
+    report_.statistics.tets = tets_->tets.size();
+    report_.statistics.tet_components = tet_topology_.components;
+  }
+
+  void check_surface_topology() {
+    topology_ = check::surface_topology(points_, triangles_);
+    Tally rim;
+    for (const auto& edge : topology_.rim) rim.add(midpoint(points_[edge[0]], points_[edge[1]]));
+    if (options_.open_border.value_or(info_.open_border)) {
+      builder_.not_applicable("closed surface", std::to_string(rim.count) + " rim edges, an open border is expected");
+    } else {
+      builder_.count("closed surface", rim, rim.count > 0 ? "edges of one triangle only" : "");
+    }
+    builder_.count("manifold edges", topology_.crowded_edges);
+    builder_.count("manifold vertices", topology_.crowded_vertices);
+    builder_.count("consistent orientation", topology_.misoriented_edges);
+    builder_.count("no duplicate triangles", topology_.duplicate_triangles);
+    if (topology_.closed_manifold()) {
+      builder_.count("outward orientation", check::wrongly_oriented_components(points_, triangles_, topology_));
+    } else {
+      builder_.not_applicable("outward orientation", "only a closed, consistently oriented surface has an outside");
+    }
+    MeshStatistics& statistics = report_.statistics;
+    statistics.triangles = triangles_.size();
+    statistics.surface_components = topology_.components.size();
+    statistics.euler = topology_.euler;
+    statistics.components = topology_.components;
+    for (const ComponentStatistics& component : topology_.components) {
+      statistics.area_mm2 += component.area_mm2;
+      statistics.volume_mm3 += component.volume_mm3;
+      if (component.volume_mm3 < 0) ++statistics.cavities;
+    }
+  }
+
+  void check_bounds() {
+    const check::TriangleQuality triangles = check::measure_triangles(points_, triangles_, bounds_, precision_);
+    builder_.count("no degenerate triangles", {triangles.degenerate, triangles.degenerate_where});
+    builder_.bounded("angle", triangles.angle, bounds_.min_angle_degrees, "deg");
+    builder_.bounded("size", triangles.circumradius, bounds_.size, "mm",
+                     "circumradius, the least radius that the surface ball can have");
+    report_.statistics.angle_degrees = triangles.angles;
+    report_.statistics.edge_mm = triangles.edges;
+    if (bounds_.max_deviation) builder_.not_applicable("deviation", "needs the volume");
+    if (tets_ == nullptr) return;
+    const check::TetQuality quality = check::measure_tets(points_, tets_->tets, bounds_, precision_);
+    builder_.bounded("radius-edge", quality.radius_edge, bounds_.radius_edge, "");
+    builder_.bounded("cell size", quality.circumradius, bounds_.cell_size, "mm");
+    builder_.bounded("dihedral", quality.dihedral, bounds_.min_dihedral_degrees, "deg");
+    report_.statistics.volume_mm3 = quality.volume_mm3;
+    report_.statistics.dihedral_degrees = quality.dihedrals;
+    report_.statistics.radius_edge = quality.ratios;
+    report_.statistics.edge_mm = quality.edges;
+  }
+
+  const TetMesh* tets_;
+  const SurfaceMesh* surface_;
+  const std::vector<Point3>& points_;
+  const MeshInfo& info_;
+  const CheckOptions& options_;
+  const Promises bounds_;
+  CheckReport report_;
+  ReportBuilder builder_;
+  Precision precision_;
+  check::TetTopology tet_topology_;
+  check::SurfaceTopology topology_;
+  std::span<const Triangle> triangles_;
+};
+
+}  // namespace
+
+const char* to_string(CheckStatus status) {
+  switch (status) {
+    case CheckStatus::kPassed: return "passed";
+    case CheckStatus::kFailed: return "failed";
+    case CheckStatus::kNotApplicable: return "not applicable";
+  }
+  return "";
+}
+
+bool CheckReport::all_hold() const {
+  return std::none_of(checks.begin(), checks.end(), [](const Check& c) { return c.status == CheckStatus::kFailed; });
+}
+
+const Check* CheckReport::find(const std::string& name) const {
+  const auto found = std::find_if(checks.begin(), checks.end(), [&](const Check& c) { return c.name == name; });
+  return found == checks.end() ? nullptr : &*found;
+}
+
+CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) { return MeshChecker(mesh, options).run(); }
+
+}  // namespace delvox

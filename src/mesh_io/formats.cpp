@@ -1,0 +1,99 @@
+#include "mesh_io/formats.h"
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "core/output_file.h"
+#include "delvox/core/errors.h"
+#include "delvox/mesh_io/read_mesh.h"
+#include "delvox/mesh_io/write_mesh.h"
+
+namespace delvox {
+namespace {
+
+using namespace mesh_io;
+
+enum class Holds { kSurfaces, kTets, kTetsAndTheirBoundary };
+
+struct Format {
+  std::string_view extension;
+  const char* name;
+  Holds holds;
+  void (*write)(const MeshView&, Out&);
+  RawMesh (*read)(const Source&);
+};
+
+constexpr Format kFormats[] = {
+    {".vtu", "VTU", Holds::kTets, write_vtu, read_vtu},
+    {".stl", "STL", Holds::kSurfaces, write_stl, read_stl},
+    {".inp", "Abaqus INP", Holds::kTetsAndTheirBoundary, write_abaqus, read_abaqus},
+};
+
+const Format* find_format(const std::filesystem::path& path) {
+  std::string extension = path.extension().string();
+  for (char& c : extension) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  const auto found = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                  [&](const Format& format) { return format.extension == extension; });
+  return found == std::end(kFormats) ? nullptr : found;
+}
+
+std::string unknown_extension(const std::filesystem::path& path) {
+  std::string message = path.string() + ": no mesh format has the extension " + in_quotes(path.extension().string()) +
+                        "; use one of";
+  for (const Format& format : kFormats) message += " " + std::string(format.extension);
+  return message;
+}
+
+const Format& format_to_write(const std::filesystem::path& path) {
+  const Format* format = find_format(path);
+  if (format == nullptr) throw OptionError(unknown_extension(path));
+  return *format;
+}
+
+void write_surface(const SurfaceMesh& mesh, const Format& format, Out& out) {
+  format.write({mesh.points, mesh.triangles, {}, {}, {}, mesh.info, false}, out);
+}
+
+void write_tets(const TetMesh& mesh, const Format& format, Out& out) {
+  if (format.holds == Holds::kSurfaces) {
+    write_surface(boundary_surface(mesh), format, out);
+    return;
+  }
+  std::vector<Triangle> computed;
+  const bool lacking = format.holds == Holds::kTetsAndTheirBoundary && mesh.boundary.empty();
+  if (lacking) computed = boundary_of(mesh.tets);
+  const std::vector<Triangle>& boundary = lacking ? computed : mesh.boundary;
+  format.write({mesh.points, boundary, mesh.tets, mesh.regions, mesh.on_surface, mesh.info, true}, out);
+}
+
+}  // namespace
+
+void check_mesh_extension(const std::filesystem::path& path) { format_to_write(path); }
+
+void write_mesh(const Mesh& mesh, const std::filesystem::path& path) {
+  const Format& format = format_to_write(path);
+  OutputFile file(path);
+  {
+    Out out(file.stream());
+    if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
+      write_tets(*tets, format, out);
+    } else {
+      write_surface(std::get<SurfaceMesh>(mesh), format, out);
+    }
+  }
+  file.commit();
+}
+
+MeshFile read_mesh(const std::filesystem::path& path) {
+  const Format* format = find_format(path);
+  if (format == nullptr) throw InputError(unknown_extension(path));
+  const Source source = load_source(path);
+  RawMesh raw = format->read(source);
+  const double coordinate_error = raw.coordinate_error;
+  return {std::move(raw).finish(source), format->name, coordinate_error};
+}
+
+}  // namespace delvox

@@ -1,0 +1,73 @@
+#include "mesh_io/triangulate_polygon.h"
+
+namespace delvox::mesh_io {
+namespace {
+
+// Cutting ears takes up to cubic time: a crafted file must not keep us busy for hours.
+constexpr std::size_t kMostCornersForEars = 256;
+
+/// Newell's normal: right for any polygon, even if its first corner is reflex or it is not quite plane.
+Vector3 normal_of(std::span<const std::uint32_t> corners, std::span<const Point3> points) {
+  Vector3 normal;
+  const Point3& origin = points[corners[0]];
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    normal = normal + cross(points[corners[i]] - origin, points[corners[i + 1]] - origin);
+  }
+  return normal;
+}
+
+/// Twice the signed area of abc as seen against `normal`.
+double turn(const Point3& a, const Point3& b, const Point3& c, const Vector3& normal) {
+  return dot(cross(b - a, c - a), normal);
+}
+
+bool is_ear(std::span<const std::uint32_t> corners, std::span<const Point3> points, std::size_t tip,
+            const Vector3& normal) {
+  const std::size_t n = corners.size();
+  const std::size_t before = (tip + n - 1) % n, after = (tip + 1) % n;
+  const Point3 &a = points[corners[before]], &b = points[corners[tip]], &c = points[corners[after]];
+  if (turn(a, b, c, normal) <= 0) return false;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i == before || i == tip || i == after) continue;
+    const Point3& p = points[corners[i]];
+    if (turn(a, b, p, normal) >= 0 && turn(b, c, p, normal) >= 0 && turn(c, a, p, normal) >= 0) return false;
+  }
+  return true;
+}
+
+/// Every corner turns the same way, and every triangle of the fan too (which a star-shaped pentagram fails).
+bool is_convex(std::span<const std::uint32_t> corners, std::span<const Point3> points, const Vector3& normal) {
+  const std::size_t n = corners.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point3 &a = points[corners[i]], &b = points[corners[(i + 1) % n]], &c = points[corners[(i + 2) % n]];
+    if (turn(a, b, c, normal) < 0 || turn(points[corners[0]], a, b, normal) < 0) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::optional<std::vector<Triangle>> triangulate_polygon(std::span<const std::uint32_t> corners,
+                                                         std::span<const Point3> points) {
+  if (corners.size() < 3) return std::nullopt;
+  std::vector<Triangle> result;
+  const Vector3 normal = normal_of(corners, points);
+  if (corners.size() == 3 || is_convex(corners, points, normal)) {
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) result.push_back({corners[0], corners[i], corners[i + 1]});
+    return result;
+  }
+  if (corners.size() > kMostCornersForEars) return std::nullopt;
+  std::vector<std::uint32_t> left(corners.begin(), corners.end());
+  while (left.size() > 3) {
+    std::size_t tip = 0;
+    while (tip < left.size() && !is_ear(left, points, tip, normal)) ++tip;
+    if (tip == left.size()) return std::nullopt;
+    const std::size_t n = left.size();
+    result.push_back({left[(tip + n - 1) % n], left[tip], left[(tip + 1) % n]});
+    left.erase(left.begin() + static_cast<std::ptrdiff_t>(tip));
+  }
+  result.push_back({left[0], left[1], left[2]});
+  return result;
+}
+
+}  // namespace delvox::mesh_io

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "delvox/core/mesh.h"
+
+namespace delvox::testing {
+
+/// A folder of its own that is gone with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "delvox_mesh_io_XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string file_bytes(const std::filesystem::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void write_bytes(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// Two tets of two regions on five points with coordinates that are awkward to print; every point is used.
+inline TetMesh awkward_tets() {
+  TetMesh mesh;
+  mesh.points = {{1e-9, -1e-9, 0.1}, {123456.789012345, 0, 1.0 / 3}, {-7.25, 98765.4321098765, 0},
+                 {0.1 + 0.2, -2.5e-7, 54321.0987654321}, {123456.789012345, 98765.4321098765, 54321.09876543219}};
+  mesh.tets = {{0, 1, 2, 3}, {1, 4, 2, 3}};
+  mesh.regions = {7, 2};
+  mesh.boundary = boundary_of(mesh.tets);
+  mesh.on_surface = {1, 0, 1, 1, 1};
+  mesh.info.frame = Frame::kLps;
+  mesh.info.promises.min_angle_degrees = 30;
+  mesh.info.promises.radius_edge = 2;
+  mesh.info.promises.size = 1.0 / 3;
+  mesh.info.promises.min_dihedral_degrees = 5.5;
+  mesh.info.isovalue = 2.9;
+  mesh.info.below = true;
+  mesh.info.complete = false;
+  return mesh;
+}
+
+/// The surface of those tets.
+inline SurfaceMesh awkward_surface() {
+  SurfaceMesh mesh = boundary_surface(awkward_tets());
+  mesh.info = {};
+  mesh.info.frame = Frame::kRas;
+  mesh.info.promises.cell_size = 1.5;
+  mesh.info.promises.max_deviation = 0.1;
+  mesh.info.open_border = true;
+  return mesh;
+}
+
+}  // namespace delvox::testing

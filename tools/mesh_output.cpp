@@ -1,0 +1,67 @@
+#include "mesh_output.h"
+
+#include <CLI/CLI.hpp>
+
+#include "core/output_file.h"
+#include "delvox/core/errors.h"
+#include "delvox/mesh_io/write_mesh.h"
+#include "format.h"
+#include "signals.h"
+
+namespace delvox::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+// True if both names lead to one place; the file need not exist yet.
+bool same_place(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  if (fs::equivalent(a, b, error)) return true;
+  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+}  // namespace
+
+void add_mesh_output_options(CLI::App& app, MeshOutputOptions& options) {
+  app.add_option("-o,--output", options.paths,
+                 "Mesh to write; the extension names the format: .vtu .vtk .mesh .msh (4.1; .msh2: 2.2) .inp, and for "
+                 "surfaces .stl .ply .off .obj (of tets: their boundary). Repeat for several")
+      ->required()
+      ->allow_extra_args(false)
+      ->type_name("OUT");
+}
+
+void check_output(const std::string& path, const fs::path& input) {
+  if (path.empty()) return;
+  if (same_place(path, input)) throw OptionError(path + ": is the input as well; choose another name for the output");
+  check_output_path(path);
+}
+
+void check_mesh_outputs(const std::vector<std::string>& paths, const fs::path& input) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    check_mesh_extension(paths[i]);
+    check_output(paths[i], input);
+    for (std::size_t j = 0; j < i; ++j) {
+      if (same_place(paths[i], paths[j])) throw OptionError(paths[i] + ": given as output twice");
+    }
+  }
+}
+
+void write_mesh_outputs(const Mesh& mesh, const std::vector<std::string>& paths, const Console& console) {
+  for (const std::string& path : paths) {
+    throw_if_cancelled();
+    write_mesh(mesh, path);
+    console.note("wrote " + path);
+  }
+}
+
+std::string describe_counts(const Mesh& mesh) {
+  if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
+    return plural(tets->tets.size(), "tet") + ", " + plural(tets->boundary.size(), "boundary triangle") + ", " +
+           plural(tets->points.size(), "point");
+  }
+  const auto& surface = std::get<SurfaceMesh>(mesh);
+  return plural(surface.triangles.size(), "triangle") + ", " + plural(surface.points.size(), "point");
+}
+
+}  // namespace delvox::tools

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "console.h"
+#include "delvox/core/mesh.h"
+
+namespace delvox::tools {
+
+struct MeshOutputOptions {
+  std::vector<std::string> paths;
+};
+
+/// -o OUT, repeatable, required.
+void add_mesh_output_options(CLI::App& app, MeshOutputOptions& options);
+
+/// Throws unless every output can be written: extension known, folder writable, no path twice, none the input itself.
+void check_mesh_outputs(const std::vector<std::string>& paths, const std::filesystem::path& input);
+
+/// Throws unless `path` can be written and is not the input itself. Empty paths pass.
+void check_output(const std::string& path, const std::filesystem::path& input);
+
+/// Writes the mesh to every path, and says so.
+void write_mesh_outputs(const Mesh& mesh, const std::vector<std::string>& paths, const Console& console);
+
+/// "12,345 tets, 2,345 triangles, 6,789 points".
+std::string describe_counts(const Mesh& mesh);
+
+}  // namespace delvox::tools

@@ -1,0 +1,82 @@
+#include "meshing_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "validators.h"
+
+namespace delvox::tools {
+namespace {
+
+void add_size_options(CLI::App& app, MeshingOptions& options) {
+  auto* size = app.add_option("--size", options.size,
+                              "Upper bound on the radii of surface Delaunay balls, mm: a number, or a volume file as "
+                              "size field (default: 1/60 of the diagonal of the organ's box, at least 1.5 voxel)");
+  size->type_name("S");
+  if (options.kind == MeshKind::kSurface) return;
+  app.add_option("--tets", options.tets, "Find the size that gives about this many tets")
+      ->check(CLI::Range(100.0, 1e9))
+      ->excludes(size)
+      ->type_name("N");
+  app.add_option("--cell-size", options.cell_size,
+                 "Upper bound on the circumradii of tets, mm: a number or a volume file (default: as --size)")
+      ->type_name("S");
+}
+
+void add_shape_options(CLI::App& app, MeshingOptions& options) {
+  app.add_option("--min-angle", options.min_angle_degrees, "Lower bound on the angles of surface triangles, 0 to 30")
+      ->check(CLI::Range(0.0, 30.0))
+      ->capture_default_str()
+      ->type_name("DEG");
+  if (options.kind == MeshKind::kTets) {
+    app.add_option("--radius-edge", options.radius_edge, "Upper bound on circumradius / shortest edge of tets, from 2")
+        ->check(CLI::Range(2.0, 1e6))
+        ->capture_default_str()
+        ->type_name("RATIO");
+  }
+  app.add_option("--max-deviation", options.max_deviation,
+                 "Upper bound on the distance from a triangle's circumcentre to its surface ball centre, mm")
+      ->check(finite_number(Zero::kExcluded))
+      ->type_name("MM");
+  app.add_option("--min-ball-radius", options.min_ball_radius,
+                 "Topology and deviation leave surface balls this small alone, mm (default: 0.1 voxel)")
+      ->check(finite_number(Zero::kAllowed))
+      ->type_name("MM");
+}
+
+void add_limit_options(CLI::App& app, MeshingOptions& options) {
+  app.add_option("--max-vertices", options.limits.max_vertices, "Stop at this many vertices (0: no limit)")
+      ->capture_default_str()
+      ->type_name("N");
+  app.add_option("--max-seconds", options.limits.max_seconds, "Stop meshing after this time (0: no limit)")
+      ->check(finite_number(Zero::kAllowed))
+      ->capture_default_str()
+      ->type_name("S");
+}
+
+}  // namespace
+
+void add_meshing_options(CLI::App& app, MeshingOptions& options) {
+  app.add_option("VOLUME", options.volume.path, "The scan: .nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices")
+      ->required();
+  add_mesh_output_options(app, options.output);
+  add_isovalue_options(app, options.isosurface);
+  add_size_options(app, options);
+  add_shape_options(app, options);
+  if (options.kind == MeshKind::kSurface) {
+    app.add_option("--border", options.border,
+                   "Where the organ is cut by the image edge: close the surface there, or leave it open")
+        ->check(CLI::IsMember({"close", "open"}))
+        ->capture_default_str()
+        ->type_name("HOW");
+  }
+  add_reading_options(app, options.volume);
+  add_preprocessing_options(app, options.volume);
+  add_component_options(app, options.isosurface);
+  add_frame_option(app, options.frame);
+  add_limit_options(app, options);
+  app.add_option("--report", options.report, "Write what was done and checked to a JSON file")->type_name("FILE.json");
+  add_config_option(app);
+  add_console_options(app, options.console, JsonFlag::kOffered);
+}
+
+}  // namespace delvox::tools

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "console.h"
+#include "delvox/core/run.h"
+#include "mesh_output.h"
+#include "verbs.h"
+#include "volume_input.h"
+
+namespace delvox::tools {
+
+enum class MeshKind { kSurface, kTets };
+
+/// Everything that `surface` and `tet` take. The initial values are the defaults that --help shows.
+struct MeshingOptions {
+  MeshKind kind = MeshKind::kTets;
+  VolumeInputOptions volume;
+  IsosurfaceOptions isosurface;
+  std::string size;                      ///< a number or a volume file; empty: default_size()
+  std::string cell_size;                 ///< a number or a volume file; empty: as size
+  std::size_t tets = 0;                  ///< wanted number of tets; 0: as size says
+  double min_angle_degrees = 30;
+  double radius_edge = 2;
+  std::optional<double> max_deviation;   ///< mm
+  std::optional<double> min_ball_radius;  ///< mm; default: 0.1 voxel
+  std::string border = "close";          ///< close or open
+  std::string frame;                     ///< ras, lps, or empty: the volume's own
+  RunLimits limits;
+  MeshOutputOptions output;
+  std::string report;                    ///< path; empty: none
+  ConsoleOptions console;
+};
+
+/// Binds all flags of the verb to `options`. pre: options.kind is set.
+void add_meshing_options(CLI::App& app, MeshingOptions& options);
+
+}  // namespace delvox::tools

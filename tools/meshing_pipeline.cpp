@@ -1,0 +1,242 @@
+#include "meshing_pipeline.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "delvox/check/check_mesh.h"
+#include "delvox/core/errors.h"
+#include "delvox/meshing/delsurf.h"
+#include "delvox/meshing/deltetsurf.h"
+#include "delvox/oracle/isosurface_oracle.h"
+#include "exit_codes.h"
+#include "format.h"
+#include "open_border.h"
+#include "progress.h"
+#include "report_json.h"
+#include "signals.h"
+#include "sizes.h"
+#include "stopwatch.h"
+#include "verdict.h"
+
+namespace delvox::tools {
+namespace {
+
+constexpr double kMinBallRadiusVoxels = 0.1;
+
+class MeshingRun {
+ public:
+  explicit MeshingRun(const MeshingOptions& options) : options_(options), console_(options.console) {}
+
+  /// The steps, in order. `report` already holds what is known before the run.
+  void run(Json report) {
+    check_mesh_outputs(options_.output.paths, options_.volume.path);
+    check_output(options_.report, options_.volume.path);
+    read();
+    decide();
+    mesh();
+    check();
+    write();
+    tell(std::move(report));
+    if (!verdict_.empty()) throw PromiseBroken(options_.output.paths.front() + ": written, but " + verdict_);
+  }
+
+ private:
+  void read();
+  void decide();
+  void mesh();
+  void search_size();
+  void mesh_at(const SizeField& size);
+  Mesh run_mesher(const Oracle& oracle, const SizeField& size);
+  double min_ball_radius() const;
+  double meshing_seconds() const;
+  void check();
+  void write();
+  void tell(Json report) const;
+  Json report() const;
+  std::string summary() const;
+
+  const MeshingOptions& options_;
+  Console console_;
+  Stopwatch watch_;
+  VolumeHeader file_header_;
+  std::optional<Volume> volume_;
+  FrameChange frame_;
+  ChosenIsosurface chosen_;
+  SizeField size_ = 1.0;
+  std::string size_sentence_;
+  std::optional<SizeField> cell_size_;
+  Mesh mesh_;
+  RunReport run_report_;
+  std::string filter_sentence_;
+  CheckReport check_report_;
+  std::string verdict_;
+};
+
+void MeshingRun::read() {
+  const Volume whole = watch_.timed("reading", [&] { return load_volume(options_.volume, console_); });
+  file_header_ = whole.header();
+  frame_ = FrameChange(file_header_.frame, options_.frame);
+  volume_ = watch_.timed("preprocessing", [&] { return preprocess(whole, options_.volume, frame_); });
+}
+
+// Chooses the isovalue and the sizes, and says so.
+void MeshingRun::decide() {
+  chosen_ = watch_.timed("isovalue", [&] { return choose_isosurface(*volume_, options_.isosurface, frame_); });
+  console_.note(chosen_.sentence);
+  const Frame frame = volume_->header().frame;
+  if (!options_.cell_size.empty()) cell_size_ = parse_size(options_.cell_size, "--cell-size", frame);
+  if (!options_.size.empty()) {
+    size_ = parse_size(options_.size, "--size", frame);
+    size_sentence_ = "size " + options_.size + (size_.constant() ? " mm" : "");
+  } else if (options_.tets == 0) {
+    size_ = default_size(*volume_, chosen_.surface);
+    size_sentence_ = "size " + number(size_.maximum()) + " mm, from the organ's extent and the voxels";
+    console_.note(size_sentence_);
+  }
+}
+
+double MeshingRun::min_ball_radius() const {
+  const Vector3 spacing = volume_->header().spacing();
+  return options_.min_ball_radius.value_or(kMinBallRadiusVoxels * std::min({spacing.x, spacing.y, spacing.z}));
+}
+
+Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
+  SurfaceCriteria surface;
+  surface.size = size;
+  surface.min_angle_degrees = options_.min_angle_degrees;
+  surface.max_deviation = options_.max_deviation.value_or(std::numeric_limits<double>::infinity());
+  surface.min_ball_radius = min_ball_radius();
+  ProgressDisplay display(ProgressDisplay::style_for_stderr(console_.quiet()));
+  RunControl control;
+  control.limits = options_.limits;
+  if (control.limits.max_seconds > 0) {  // what earlier runs of --tets have left of it
+    control.limits.max_seconds = std::max(1e-3, control.limits.max_seconds - meshing_seconds());
+  }
+  control.on_progress = [&display](const Progress& progress) { display.show(progress); };
+  control.cancel = &cancel_requested();
+  if (options_.kind == MeshKind::kSurface) return delsurf(oracle, {surface, control}, run_report_);
+  return deltetsurf(oracle, {surface, {options_.radius_edge, cell_size_.value_or(size)}, control}, run_report_);
+}
+
+double MeshingRun::meshing_seconds() const {
+  double seconds = 0;
+  for (const StageTime& stage : watch_.stages()) seconds += stage.stage == "meshing" ? stage.seconds : 0;
+  return seconds;
+}
+
+void MeshingRun::mesh_at(const SizeField& size) {
+  size_ = size;
+  const FilteredVolume filtered = watch_.timed(
+      "components", [&] { return filter_volume(*volume_, chosen_.surface, options_.isosurface, size.minimum()); });
+  filter_sentence_ = filtered.sentence;
+  throw_if_cancelled();
+  const auto oracle = watch_.timed("oracle", [&] { return make_isosurface_oracle(filtered.volume, chosen_.surface); });
+  throw_if_cancelled();
+  mesh_ = watch_.timed("meshing", [&] { return run_mesher(*oracle, size); });
+}
+
+// --tets: meshes at sizes that close in on the wanted number.
+void MeshingRun::search_size() {
+  double last_size = 0;
+  const double first_size = guess_size(options_.tets, *volume_, chosen_.surface);
+  const SizeSearch found = find_size(options_.tets, first_size, [&](double size) -> std::optional<std::size_t> {
+    last_size = size;
+    mesh_at(size);
+    const std::size_t tets = std::get<TetMesh>(mesh_).tets.size();
+    console_.note("size " + number(size) + " mm: " + plural(tets, "tet"));
+    if (run_report_.stop != StopReason::kFinished) return std::nullopt;
+    return tets;
+  });
+  if (found.size != last_size) mesh_at(found.size);
+  size_sentence_ = "size " + number(found.size, 6) + " mm, found in " + plural(found.tries, "run") + " for " +
+                   plural(options_.tets, "tet");
+  console_.note(size_sentence_);
+}
+
+void MeshingRun::mesh() {
+  if (options_.tets == 0) {
+    mesh_at(size_);
+  } else {
+    search_size();
+  }
+  if (!filter_sentence_.empty()) console_.note(filter_sentence_);
+  if (options_.border == "open") mesh_ = open_at_border(std::get<SurfaceMesh>(mesh_), volume_->header());
+  std::visit(
+      [this](auto& mesh) {
+        mesh.info.isovalue = chosen_.surface.isovalue;
+        mesh.info.below = chosen_.surface.below;
+      },
+      mesh_);
+  frame_.apply(mesh_);
+  frame_.apply(run_report_);
+}
+
+void MeshingRun::check() {
+  throw_if_cancelled();
+  check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, {.level = CheckLevel::kCheap}); });
+  verdict_ = verdict(run_report_, check_report_);
+  if (!verdict_.empty()) std::visit([](auto& mesh) { mesh.info.complete = false; }, mesh_);
+}
+
+void MeshingRun::write() {
+  watch_.timed("writing", [&] { write_mesh_outputs(mesh_, options_.output.paths, console_); });
+}
+
+Json MeshingRun::report() const {
+  return {{"volume", to_json(file_header_)},
+          {"meshed_volume", to_json(volume_->header())},
+          {"isovalue", chosen_.surface.isovalue},
+          {"isovalue_choice", chosen_.sentence},
+          {"below", chosen_.surface.below},
+          {"size", size_sentence_},
+          {"largest_size_mm", size_.maximum()},
+          {"components", filter_sentence_},
+          {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
+          {"run", to_json(run_report_)},
+          {"check", to_json(check_report_)},
+          {"seconds", watch_.total()},
+          {"stages", to_json(watch_.stages())},
+          {"mesher_stages", to_json(run_report_.stages)},
+          {"outputs", options_.output.paths},
+          {"verdict", verdict_.empty() ? "every promise verified" : verdict_}};
+}
+
+std::string MeshingRun::summary() const {
+  std::string text = to_text(check_report_);
+  for (const Unmet& unmet : run_report_.unmet) {
+    if (!unmet.breaks_promise) text += "left over: " + describe(unmet) + "\n";
+  }
+  text += chosen_.sentence + "; " + size_sentence_ + "; frame " + to_string(frame_.target()) + "\n";
+  std::string times;
+  for (const StageTime& stage : watch_.stages()) {
+    if (stage.seconds >= 0.005) times += (times.empty() ? "" : ", ") + stage.stage + " " + number(stage.seconds, 3);
+  }
+  text += number(watch_.total(), 3) + " s: " + times + "\n";
+  for (const std::string& path : options_.output.paths) text += path + "\n";
+  return text;
+}
+
+// The report to its file and to the console.
+void MeshingRun::tell(Json json) const {
+  json.update(report());
+  if (!options_.report.empty()) write_json(json, options_.report);
+  if (console_.json()) console_.machine_result(text_of(json));
+  console_.result(summary());
+}
+
+}  // namespace
+
+void run_meshing(const Verb& verb, const Arguments& arguments, MeshKind kind) {
+  CLI::App app(std::string(verb.summary) + "\n", std::string("delvox ") + verb.name);
+  MeshingOptions options;
+  options.kind = kind;
+  add_meshing_options(app, options);
+  if (!parse_arguments(app, arguments)) return;
+  Json report = run_header(verb, arguments);
+  report["options"] = options_json(app);
+  MeshingRun(options).run(std::move(report));
+}
+
+}  // namespace delvox::tools

@@ -1,0 +1,180 @@
+#include "report_json.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <thread>
+
+#include "core/output_file.h"
+
+namespace delvox::tools {
+namespace {
+
+template <class T>
+Json optional_json(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+// A flag's text as the JSON value it spells.
+Json scalar_json(const std::string& text) {
+  if (text == "true" || text == "false") return text == "true";
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (text.empty() || error != std::errc() || stop != end) return text;
+  if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
+  return value;
+}
+
+Json option_json(const CLI::Option& option) {
+  const bool is_flag = option.get_expected_max() == 0;
+  const CLI::results_t& given = option.results();
+  if (given.size() > 1 || (given.size() == 1 && option.get_expected_max() > 1)) return Json(given);
+  if (given.size() == 1) return scalar_json(given[0]);
+  if (is_flag) return false;
+  const std::string text = option.get_default_str();
+  return text.empty() ? Json(nullptr) : scalar_json(text);
+}
+
+Json to_json(const Promises& promises) {
+  return {{"min_angle_degrees", optional_json(promises.min_angle_degrees)},
+          {"radius_edge", optional_json(promises.radius_edge)},
+          {"size_mm", optional_json(promises.size)},
+          {"cell_size_mm", optional_json(promises.cell_size)},
+          {"max_deviation_mm", optional_json(promises.max_deviation)},
+          {"min_dihedral_degrees", optional_json(promises.min_dihedral_degrees)}};
+}
+
+Json to_json(const Check& check) {
+  Json json{{"name", check.name},         {"status", to_string(check.status)},  {"measured", check.measured},
+            {"bound", optional_json(check.bound)}, {"unit", check.unit}, {"violations", check.violations}};
+  json["where"] = check.where ? to_json(*check.where) : Json(nullptr);
+  if (!check.note.empty()) json["note"] = check.note;
+  return json;
+}
+
+Json to_json(const Distribution& d) {
+  return {{"count", d.count}, {"min", d.min},   {"max", d.max},  {"mean", d.mean},
+          {"low", d.low},     {"high", d.high}, {"bins", d.bins}};
+}
+
+Json to_json(const ComponentStatistics& c) {
+  return {{"triangles", c.triangles}, {"euler", c.euler},          {"genus", c.genus},
+          {"volume_mm3", c.volume_mm3}, {"area_mm2", c.area_mm2}};
+}
+
+Json to_json(const MeshStatistics& s) {
+  Json json{{"points", s.points},
+            {"tets", s.tets},
+            {"triangles", s.triangles},
+            {"surface_components", s.surface_components},
+            {"tet_components", s.tet_components},
+            {"cavities", s.cavities},
+            {"euler", s.euler},
+            {"volume_mm3", s.volume_mm3},
+            {"area_mm2", s.area_mm2}};
+  json["components"] = Json::array();
+  for (const ComponentStatistics& component : s.components) json["components"].push_back(to_json(component));
+  if (s.angle_degrees.count > 0) json["angle_degrees"] = to_json(s.angle_degrees);
+  if (s.dihedral_degrees.count > 0) json["dihedral_degrees"] = to_json(s.dihedral_degrees);
+  if (s.radius_edge.count > 0) json["radius_edge"] = to_json(s.radius_edge);
+  if (s.edge_mm.count > 0) json["edge_mm"] = to_json(s.edge_mm);
+  return json;
+}
+
+Json to_json(const VoxelComparison& c) {
+  return {{"voxel_surface_components", c.voxels.surface_components},
+          {"voxel_inside_components", c.voxels.inside_components},
+          {"voxel_cavities", c.voxels.cavities},
+          {"voxel_euler", c.voxels.euler},
+          {"voxel_volume_mm3", c.voxel_volume_mm3},
+          {"volume_ratio", c.volume_ratio},
+          {"mesh_to_surface_max_mm", c.mesh_to_surface_max_mm},
+          {"mesh_to_surface_mean_mm", c.mesh_to_surface_mean_mm},
+          {"surface_to_mesh_max_mm", c.surface_to_mesh_max_mm},
+          {"surface_to_mesh_mean_mm", c.surface_to_mesh_mean_mm}};
+}
+
+}  // namespace
+
+Json run_header(const Verb& verb, const Arguments& arguments) {
+  Json command = Json::array({"delvox", verb.name});
+  for (const std::string& argument : arguments) command.push_back(argument);
+  return {{"delvox", DELVOX_VERSION},
+          {"command", std::move(command)},
+          {"hardware_threads", std::thread::hardware_concurrency()}};
+}
+
+Json options_json(const CLI::App& app) {
+  Json json = Json::object();
+  for (const CLI::Option* option : app.get_options()) {
+    const std::string name = option->get_single_name();
+    if (name != "help" && name != "version") json[name] = option_json(*option);
+  }
+  return json;
+}
+
+Json to_json(const Point3& p) { return Json::array({p.x, p.y, p.z}); }
+
+Json to_json(const VolumeHeader& header) {
+  Json affine = Json::array();
+  for (const auto& row : header.index_to_world.rows) affine.push_back(row);
+  return {{"format", header.format},
+          {"sample_type", header.sample_type},
+          {"dims", header.dims},
+          {"spacing_mm", to_json(header.spacing())},
+          {"orientation", header.orientation()},
+          {"frame", to_string(header.frame)},
+          {"index_to_world", std::move(affine)},
+          {"warnings", header.warnings}};
+}
+
+Json to_json(const MeshInfo& info) {
+  return {{"frame", to_string(info.frame)},       {"isovalue", optional_json(info.isovalue)},
+          {"below", info.below},                  {"open_border", info.open_border},
+          {"complete", info.complete},            {"promises", to_json(info.promises)}};
+}
+
+Json to_json(const RunReport& report) {
+  Json unmet = Json::array();
+  for (const Unmet& u : report.unmet) {
+    unmet.push_back({{"criterion", u.criterion},
+                     {"count", u.count},
+                     {"where", to_json(u.where)},
+                     {"reason", u.reason},
+                     {"breaks_promise", u.breaks_promise}});
+  }
+  return {{"stop", to_string(report.stop)},
+          {"succeeded", report.succeeded()},
+          {"unmet", std::move(unmet)},
+          {"components", report.components},
+          {"surface_insertions", report.surface_insertions},
+          {"topology_insertions", report.topology_insertions},
+          {"interior_insertions", report.interior_insertions},
+          {"removals", report.removals}};
+}
+
+Json to_json(const CheckReport& report) {
+  Json checks = Json::array();
+  for (const Check& check : report.checks) checks.push_back(to_json(check));
+  Json json{{"all_hold", report.all_hold()}, {"checks", std::move(checks)}, {"statistics", to_json(report.statistics)}};
+  if (report.comparison) json["comparison"] = to_json(*report.comparison);
+  return json;
+}
+
+Json to_json(const std::vector<StageTime>& stages) {
+  Json json = Json::array();
+  for (const StageTime& stage : stages) json.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+  return json;
+}
+
+std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+void write_json(const Json& json, const std::string& path) {
+  OutputFile file(path);
+  file.stream() << text_of(json);
+  file.commit();
+}
+
+}  // namespace delvox::tools

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <atomic>
+
+namespace delvox::tools {
+
+/// Ctrl-C, SIGTERM and SIGHUP ask the run to stop; a second one stops it at once, after removing what is unfinished
+/// (exit 130). SIGPIPE and SIGXFSZ are ignored: writing then fails with an error that is reported.
+void install_signal_handlers();
+
+/// True once a signal has asked the run to stop: for RunControl::cancel.
+const std::atomic<bool>& cancel_requested();
+
+/// Throws Cancelled if a signal has asked the run to stop. Called between stages that do not look themselves.
+void throw_if_cancelled();
+
+}  // namespace delvox::tools

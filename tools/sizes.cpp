@@ -1,0 +1,157 @@
+#include "sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "delvox/core/errors.h"
+#include "delvox/volume/read_volume.h"
+#include "format.h"
+
+namespace delvox::tools {
+namespace {
+
+constexpr double kSizesPerDiagonal = 60;
+constexpr double kVoxelsPerSize = 1.5;
+constexpr double kTetsPerCubedSize = 4;  // tets in a piece of organ of size^3, about (liver, head MR)
+
+double voxel_mm3(const Volume& volume) { return std::abs(volume.header().index_to_world.determinant()); }
+
+// Trilinear interpolation of all samples of a volume, at any place of space.
+class SampledSize {
+ public:
+  SampledSize(const Volume& volume, bool turned)
+      : dims_(volume.dims()),
+        world_to_index_(volume.header().index_to_world.inverse()),
+        samples_(volume.samples()),
+        turned_(turned) {}
+
+  double operator()(const Point3& p) const {
+    const Point3 at = world_to_index_(turned_ ? Point3{-p.x, -p.y, p.z} : p);
+    std::array<std::size_t, 3> low, high;
+    Point3 fraction;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double clamped = std::clamp(at[axis], 0.0, static_cast<double>(dims_[axis] - 1));
+      low[axis] = static_cast<std::size_t>(clamped);
+      high[axis] = std::min<std::size_t>(low[axis] + 1, static_cast<std::size_t>(dims_[axis]) - 1);
+      fraction[axis] = clamped - static_cast<double>(low[axis]);
+    }
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      double weight = 1;
+      std::array<std::size_t, 3> index;
+      for (int axis = 0; axis < 3; ++axis) {
+        const bool upper = (corner >> axis) & 1;
+        index[axis] = upper ? high[axis] : low[axis];
+        weight *= upper ? fraction[axis] : 1 - fraction[axis];
+      }
+      sum += weight * sample(index);
+    }
+    return sum;
+  }
+
+ private:
+  double sample(const std::array<std::size_t, 3>& i) const {
+    return samples_[(i[2] * static_cast<std::size_t>(dims_[1]) + i[1]) * static_cast<std::size_t>(dims_[0]) + i[0]];
+  }
+
+  std::array<int, 3> dims_;
+  Affine3 world_to_index_;
+  std::vector<float> samples_;
+  bool turned_;
+};
+
+SizeField size_volume(const std::string& path, const std::string& option, Frame frame) {
+  const Volume volume = read_volume(path);
+  if (!(volume.min() > 0)) {
+    throw InputError(path + ": as " + option + ": holds sizes of " + number(volume.min()) +
+                     "; every sample must be positive, in mm");
+  }
+  const Frame own = volume.header().frame;
+  const bool turned = own != Frame::kUnknown && frame != Frame::kUnknown && own != frame;
+  const auto sampled = std::make_shared<SampledSize>(volume, turned);
+  const double low = volume.min(), high = volume.max();
+  return SizeField([sampled, low, high](const Point3& p) { return std::clamp((*sampled)(p), low, high); }, low, high);
+}
+
+// What of a volume lies inside: a box along its own axes, which may be oblique, in mm, and the number of samples.
+struct Inside {
+  double diagonal = 0;
+  double volume_mm3 = 0;
+};
+
+Inside measure_inside(const Volume& volume, const Isosurface& surface) {
+  const LevelSet level_set(surface);
+  const std::array<int, 3> dims = volume.dims();
+  Box3 indices;
+  std::size_t count = 0;
+  std::vector<float> slice(static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]));
+  for (int k = 0; k < dims[2]; ++k) {
+    volume.copy_block({0, 0, k}, {dims[0], dims[1], 1}, slice.data());
+    const float* sample = slice.data();
+    for (int j = 0; j < dims[1]; ++j) {
+      for (int i = 0; i < dims[0]; ++i) {
+        if (!level_set.inside(level_set.sign * *sample++)) continue;
+        indices.extend({double(i), double(j), double(k)});
+        ++count;
+      }
+    }
+  }
+  if (count == 0) throw NothingToMesh("no sample of the volume is inside; choose another --iso, see delvox info");
+  const Vector3 spacing = volume.header().spacing(), steps = indices.max - indices.min;
+  return {norm({steps.x * spacing.x, steps.y * spacing.y, steps.z * spacing.z}),
+          static_cast<double>(count) * voxel_mm3(volume)};
+}
+
+}  // namespace
+
+double default_size(const Volume& volume, const Isosurface& surface) {
+  return std::max(measure_inside(volume, surface).diagonal / kSizesPerDiagonal,
+                  kVoxelsPerSize * std::cbrt(voxel_mm3(volume)));
+}
+
+double guess_size(std::size_t tets, const Volume& volume, const Isosurface& surface) {
+  return std::cbrt(kTetsPerCubedSize * measure_inside(volume, surface).volume_mm3 / static_cast<double>(tets));
+}
+
+SizeField parse_size(const std::string& text, const std::string& option, Frame frame) {
+  const bool looks_like_number = !text.empty() && text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  if (!looks_like_number) {
+    if (std::filesystem::exists(text)) return size_volume(text, option, frame);
+    throw OptionError(option + ": '" + text + "' is neither a number nor a volume file");
+  }
+  const double size = parse_number(text, option);
+  if (!(size > 0)) throw OptionError(option + ": " + text + " is not positive; give a length in mm");
+  return SizeField(size);
+}
+
+SizeSearch find_size(std::size_t wanted, double first_size,
+                     const std::function<std::optional<std::size_t>(double size)>& mesh_at) {
+  constexpr int kMostTries = 5;
+  constexpr double kTolerance = 0.03;
+  // How far off a try is, in the logarithm: negative if there are too few tets.
+  const auto excess = [wanted](std::size_t tets) {
+    return std::log(static_cast<double>(std::max<std::size_t>(tets, 1)) / static_cast<double>(wanted));
+  };
+  SizeSearch best;
+  double size = first_size, exponent = 3, last_size = 0, last_excess = 0;
+  for (int tries = 1; tries <= kMostTries; ++tries) {
+    const std::optional<std::size_t> tets = mesh_at(size);
+    const double now = excess(tets.value_or(0));
+    if (!tets || tries == 1 || std::abs(now) < std::abs(excess(best.tets))) best = {size, tets.value_or(0), tries};
+    best.tries = tries;
+    if (!tets || std::abs(now) <= kTolerance) break;
+    // Secant in the logarithms, kept near the cube law: counts jump a little.
+    if (tries > 1 && size != last_size) {
+      exponent = std::clamp((now - last_excess) / std::log(last_size / size), 1.5, 4.0);
+    }
+    last_size = size;
+    last_excess = now;
+    size *= std::exp(now / exponent);
+  }
+  return best;
+}
+
+}  // namespace delvox::tools

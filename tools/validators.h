@@ -1,0 +1,22 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <string>
+
+namespace delvox::tools {
+
+/// Accepts finite numbers above 0, or from 0 on.
+enum class Zero { kAllowed, kExcluded };
+inline CLI::Validator finite_number(Zero zero) {
+  return CLI::Validator(
+      [zero](const std::string& text) -> std::string {
+        double value = 0;
+        const bool is_number = CLI::detail::lexical_cast(text, value);
+        if (is_number && std::isfinite(value) && (value > 0 || (zero == Zero::kAllowed && value == 0))) return "";
+        return "'" + text + "' is not a number " + (zero == Zero::kAllowed ? ">= 0" : "> 0");
+      },
+      "");
+}
+
+}  // namespace delvox::tools

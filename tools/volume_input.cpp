@@ -1,0 +1,103 @@
+#include "volume_input.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "delvox/core/errors.h"
+#include "delvox/volume/histogram.h"
+#include "delvox/volume/preprocess.h"
+#include "delvox/volume/voxel_topology.h"
+#include "format.h"
+#include "signals.h"
+#include "validators.h"
+
+namespace delvox::tools {
+namespace {
+
+Vector3 parse_spacing(const std::string& text) {
+  const std::vector<std::string> pieces = split(text, ',');
+  if (pieces.size() != 3) throw OptionError("--spacing: '" + text + "' is not three numbers; give sx,sy,sz in mm");
+  Vector3 spacing;
+  for (int axis = 0; axis < 3; ++axis) {
+    spacing[axis] = parse_number(pieces[static_cast<std::size_t>(axis)], "--spacing");
+    if (!(spacing[axis] > 0)) throw OptionError("--spacing: '" + text + "' is not positive; give sx,sy,sz in mm");
+  }
+  return spacing;
+}
+
+}  // namespace
+
+void add_reading_options(CLI::App& app, VolumeInputOptions& options) {
+  app.add_option_function<std::string>(
+         "--spacing", [&options](const std::string& text) { options.read.spacing = parse_spacing(text); },
+         "Voxel spacing in mm, for files that do not state it (TIFF)")
+      ->type_name("SX,SY,SZ");
+  app.add_option("--volume-index", options.read.volume_index, "Which volume of a 4D file, from 0")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->type_name("N");
+}
+
+void add_preprocessing_options(CLI::App& app, VolumeInputOptions& options) {
+  app.add_option("--crop", options.crop,
+                 "Keep a part: voxel indices x0:x1,y0:y1,z0:z1 (x1 excluded; either may be left out), or with suffix "
+                 "mm world coordinates")
+      ->type_name("BOX");
+  app.add_option("--resample", options.resample, "Then resample to cubic voxels of this edge, mm")
+      ->check(finite_number(Zero::kExcluded))
+      ->type_name("MM");
+  app.add_option("--smooth", options.smooth, "Then smooth with a Gaussian of this sigma, mm")
+      ->check(finite_number(Zero::kAllowed))
+      ->type_name("SIGMA");
+}
+
+void add_isovalue_options(CLI::App& app, IsosurfaceOptions& options) {
+  app.add_option("--iso", options.iso,
+                 "Isovalue, inside is at or above it: a number, otsu, otsu3:2 (second of three classes' thresholds), "
+                 "p97.5 (percentile) or at:x,y,z (value at a world point)")
+      ->capture_default_str()
+      ->type_name("V");
+  app.add_flag("--below", options.below, "Inside is at or below the isovalue");
+}
+
+void add_component_options(CLI::App& app, IsosurfaceOptions& options) {
+  app.add_flag("--largest", options.largest, "Keep the largest component only");
+  app.add_option("--min-component", options.min_component,
+                 "Take out components and cavities smaller than this, mm3; 0 keeps all (default: the volume of one "
+                 "surface ball, 4/3 pi size^3)")
+      ->check(finite_number(Zero::kAllowed))
+      ->type_name("MM3");
+  app.add_flag("--fill-cavities", options.fill_cavities, "Fill cavities");
+}
+
+Volume load_volume(const VolumeInputOptions& options, const Console& console) {
+  Volume volume = read_volume(options.path, options.read);
+  throw_if_cancelled();
+  for (const std::string& warning : volume.header().warnings) console.note("warning: " + options.path + ": " + warning);
+  return volume;
+}
+
+Volume preprocess(const Volume& volume, const VolumeInputOptions& options, const FrameChange& frame) {
+  Volume result = volume;
+  if (!options.crop.empty()) result = crop(result, parse_crop(result, frame.crop_in_volume(options.crop)));
+  throw_if_cancelled();
+  if (options.resample > 0) result = resample(result, {.spacing_mm = options.resample});
+  throw_if_cancelled();
+  if (options.smooth > 0) result = smooth(result, {.sigma_mm = options.smooth});
+  throw_if_cancelled();
+  return result;
+}
+
+ChosenIsosurface choose_isosurface(const Volume& volume, const IsosurfaceOptions& options, const FrameChange& frame) {
+  const IsovalueChoice choice = choose_isovalue(volume, frame.iso_in_volume(options.iso));
+  return {{choice.value, options.below}, choice.sentence + (options.below ? ", inside is at or below" : "")};
+}
+
+FilteredVolume filter_volume(const Volume& volume, const Isosurface& surface, const IsosurfaceOptions& options,
+                             double size) {
+  (void)surface, (void)options, (void)size;
+  return {volume, {}};
+}
+
+}  // namespace delvox::tools

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "console.h"
+#include "delvox/volume/level_set.h"
+#include "delvox/volume/read_volume.h"
+#include "patient_frame.h"
+
+namespace delvox::tools {
+
+/// Which volume, and what is done to it on the way in.
+struct VolumeInputOptions {
+  std::string path;
+  ReadVolumeOptions read;
+  std::string crop;     ///< "x0:x1,y0:y1,z0:z1" voxel indices, or with suffix "mm" world coordinates; empty: all
+  double resample = 0;  ///< edge length of the new cubic voxels, mm; 0: as they are
+  double smooth = 0;    ///< sigma of a Gaussian, mm; 0: none
+};
+
+/// Which isosurface of it, and which of its components.
+struct IsosurfaceOptions {
+  std::string iso = "otsu";
+  bool below = false;
+  bool largest = false;
+  std::optional<double> min_component;  ///< mm3; default: the volume of one surface ball
+  bool fill_cavities = false;
+};
+
+/// How a volume is read: --spacing, --volume-index.
+void add_reading_options(CLI::App& app, VolumeInputOptions& options);
+/// --crop, --resample, --smooth.
+void add_preprocessing_options(CLI::App& app, VolumeInputOptions& options);
+/// --iso and --below. The default of --iso is what `options` holds.
+void add_isovalue_options(CLI::App& app, IsosurfaceOptions& options);
+/// --largest, --min-component, --fill-cavities.
+void add_component_options(CLI::App& app, IsosurfaceOptions& options);
+
+/// Reads the volume, passing the reader's warnings on.
+Volume load_volume(const VolumeInputOptions& options, const Console& console);
+
+/// Crops, resamples, smooths, in this order. World coordinates in --crop are those of `frame`.
+Volume preprocess(const Volume& volume, const VolumeInputOptions& options, const FrameChange& frame);
+
+/// An isosurface and how its value came about.
+struct ChosenIsosurface {
+  Isosurface surface;
+  std::string sentence;
+};
+
+/// Resolves --iso; a point given as at:x,y,z is one of `frame`.
+ChosenIsosurface choose_isosurface(const Volume& volume, const IsosurfaceOptions& options, const FrameChange& frame);
+
+/// Takes away small components and fills cavities as the options say. `size`: of the surface balls, for the default of
+/// --min-component. `sentence` tells what was done; empty if nothing was.
+struct FilteredVolume {
+  Volume volume;
+  std::string sentence;
+};
+FilteredVolume filter_volume(const Volume& volume, const Isosurface& surface, const IsosurfaceOptions& options,
+                             double size);
+
+}  // namespace delvox::tools
