@@ -156,37 +156,6 @@ bool Refinement::repair_umbrella(VertexId vertex) {
   return true;
 }
 
-bool Refinement::repair_landmarks() {
-  bool inserted = false;
-  lost_landmarks_ = 0;
-  CellId hint = delaunay_.created().front();
-  for (const Point3& landmark : landmarks_) {
-    if (!budget_left()) return inserted;
-    inserted |= repair_landmark(landmark, hint);
-  }
-  return inserted;
-}
-
-/// A landmark and the Voronoi vertex of its tet lie in the tet's circumball: the crossing between them destroys the tet.
-bool Refinement::repair_landmark(const Point3& landmark, CellId& hint) {
-  hint = delaunay_.locate(landmark, hint);
-  const Cell& cell = delaunay_.cell(hint);
-  const Label label = oracle_.label(landmark);
-  if (label == cell.label) return false;
-  const Point3 p = delaunay_.dual_crossing(landmark, label, cell.sphere.center, cell.label);
-  const double floor = surface_.min_ball_radius * surface_.min_ball_radius;
-  for (VertexId vertex : delaunay_.vertices(hint)) {
-    if (squared_distance(p, delaunay_.point(vertex)) > floor) continue;
-    ++lost_landmarks_;
-    lost_place_ = landmark;
-    return false;
-  }
-  if (!insert_surface_point(p, hint)) return false;
-  hint = delaunay_.created().front();
-  ++report_.topology_insertions;
-  return true;
-}
-
 void Refinement::report_unmet() {
   const auto tell = [this](const char* criterion, std::size_t count, const Point3& where, const char* reason,
                            bool breaks_promise) {

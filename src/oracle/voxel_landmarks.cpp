@@ -10,17 +10,17 @@ namespace {
 using Index3 = std::array<int, 3>;
 constexpr int kBlock = BrickField::kBlock, kBrick = BrickField::kBrick;
 constexpr auto& kStride = BrickField::kBlockStride;
-/// Points per segment of the skeleton, its ends apart. On a grid edge the function is linear, so a neck is nowhere much
-/// thinner than at the nearest of these.
+/// Points along a segment of the skeleton, its ends apart.
 constexpr int kPerSegment = 3;
+constexpr std::uint32_t kNotYet = 0xffffffffu;
 
 class LandmarkFinder {
  public:
   explicit LandmarkFinder(const BrickField& field) : field_(field), level_(field.level()) {}
 
-  std::vector<Point3> run() {
+  Landmarks run() {
     field_.for_each_mixed_brick([this](const Index3& brick) { visit_brick(brick); });
-    return std::move(points_);
+    return std::move(result_);
   }
 
  private:
@@ -29,7 +29,7 @@ class LandmarkFinder {
   void visit_brick(const Index3& brick) {
     const float* block = field_.block(brick);
     brick_ = brick;
-    sample_done_.fill(false);
+    samples_.fill(kNotYet);
     for (int axis = 0; axis < 3; ++axis) edge_done_[axis].fill(false), face_done_[axis].fill(false);
     for (int k = 0; k < kBrick; ++k) {
       for (int j = 0; j < kBrick; ++j) {
@@ -81,19 +81,23 @@ class LandmarkFinder {
         if (!(corner >> u & 1) && !(corner >> v & 1)) add_face(block, at, sample, axis);
       }
     }
-    add_body(block + base, cell);
+    add_body(block, base, cell);
   }
 
-  void add_sample(int at, const Index3& sample) {
-    if (std::exchange(sample_done_[at], true)) return;
-    points_.push_back(place(sample));
+  std::uint32_t add_point(const Point3& p) {
+    result_.points.push_back(p);
+    return static_cast<std::uint32_t>(result_.points.size() - 1);
+  }
+
+  std::uint32_t add_sample(int at, const Index3& sample) {
+    if (samples_[at] == kNotYet) samples_[at] = add_point(place(sample));
+    return samples_[at];
   }
 
   void add_edge(const float* block, int at, const Index3& sample, int axis) {
     if (std::exchange(edge_done_[axis][at], true)) return;
-    if (inside(block + at) == inside(block + at + kStride[axis])) {
-      add_segment(place(sample), place(moved(sample, axis)));
-    }
+    if (inside(block + at) != inside(block + at + kStride[axis])) return;
+    add_segment(add_sample(at, sample), add_sample(at + kStride[axis], moved(sample, axis)));
   }
 
   /// Joins the saddle of an ambiguous face to its side's corners: along a straight line from a bilinear saddle the
@@ -112,50 +116,56 @@ class LandmarkFinder {
     Point3 middle = place(sample);
     middle[u] += (*saddle)[0];
     middle[v] += (*saddle)[1];
-    points_.push_back(middle);
+    const std::uint32_t middle_index = add_point(middle);
     for (int corner = even_inside == saddle_inside ? 0 : 1; corner < 4; corner += 2) {
-      Point3 end = place(sample);
-      if (corner == 1 || corner == 2) end[u] += 1;
-      if (corner >= 2) end[v] += 1;
-      add_segment(middle, end);
+      Index3 end = sample;
+      if (corner == 1 || corner == 2) ++end[u];
+      if (corner >= 2) ++end[v];
+      add_segment(middle_index, add_sample(static_cast<int>(p[corner] - block), end));
     }
   }
 
-  void add_body(const float* p, const Index3& cell) {
-    std::array<float, 8> samples;
-    for (int corner = 0; corner < 8; ++corner) samples[corner] = p[offset(corner)];
-    for (const Point3& saddle : body_saddles(samples)) {
-      const Point3 origin = place(cell);
-      const bool saddle_inside = trilinear(samples, saddle.x, saddle.y, saddle.z) > level_;
-      points_.push_back(origin + saddle);
+  void add_body(const float* block, int base, const Index3& cell) {
+    std::array<float, 8> values;
+    for (int corner = 0; corner < 8; ++corner) values[corner] = block[base + offset(corner)];
+    for (const Point3& saddle : body_saddles(values)) {
+      const bool saddle_inside = trilinear(values, saddle.x, saddle.y, saddle.z) > level_;
+      const std::uint32_t saddle_index = add_point(place(cell) + saddle);
       for (int corner = 0; corner < 8; ++corner) {
-        const Point3 end{double(corner & 1), double(corner >> 1 & 1), double(corner >> 2 & 1)};
+        const Index3 end{corner & 1, corner >> 1 & 1, corner >> 2 & 1};
         bool one_side = true;
         for (int step = 1; step <= 16 && one_side; ++step) {
-          const Point3 q = saddle + (step / 16.0) * (end - saddle);
-          one_side = (trilinear(samples, q.x, q.y, q.z) > level_) == saddle_inside;
+          const Point3 q = saddle + (step / 16.0) * (Point3{double(end[0]), double(end[1]), double(end[2])} - saddle);
+          one_side = (trilinear(values, q.x, q.y, q.z) > level_) == saddle_inside;
         }
-        if (one_side) add_segment(origin + saddle, origin + end);
+        if (!one_side) continue;
+        const Index3 sample{cell[0] + end[0], cell[1] + end[1], cell[2] + end[2]};
+        add_segment(saddle_index, add_sample(base + offset(corner), sample));
       }
     }
   }
 
-  void add_segment(const Point3& a, const Point3& b) {
+  void add_segment(std::uint32_t first, std::uint32_t last) {
+    const Point3 a = result_.points[first], b = result_.points[last];
+    std::uint32_t before = first;
     for (int step = 1; step <= kPerSegment; ++step) {
-      points_.push_back(a + (step / (kPerSegment + 1.0)) * (b - a));
+      const std::uint32_t next = add_point(a + (step / (kPerSegment + 1.0)) * (b - a));
+      result_.links.push_back({before, next});
+      before = next;
     }
+    result_.links.push_back({before, last});
   }
 
   const BrickField& field_;
   double level_;
   Index3 brick_{};
-  std::array<bool, BrickField::kBlockSize> sample_done_{};
+  std::array<std::uint32_t, BrickField::kBlockSize> samples_{};  // index of each sample's point
   std::array<std::array<bool, BrickField::kBlockSize>, 3> edge_done_{}, face_done_{};
-  std::vector<Point3> points_;
+  Landmarks result_;
 };
 
 }  // namespace
 
-std::vector<Point3> voxel_landmarks(const BrickField& field) { return LandmarkFinder(field).run(); }
+Landmarks voxel_landmarks(const BrickField& field) { return LandmarkFinder(field).run(); }
 
 }  // namespace delvox
