@@ -21,8 +21,8 @@ struct IndexBox {
 /// Throws NothingToMesh: nothing is left.
 Volume crop(const Volume& volume, const IndexBox& box);
 
-/// The smallest index box around a world box (mm, the volume's frame) cut with the image: all voxels whose centers lie in
-/// the world box, on an oblique image also others. Empty if they do not meet. pre: the world box is finite or empty.
+/// The smallest index box around a world box (mm, the volume's frame) cut with the image: all voxels whose centers lie
+/// in the world box, on an oblique image also others. Empty if they do not meet. pre: the world box is finite or empty.
 IndexBox index_box(const Volume& volume, const Box3& world);
 
 /// What `--crop` takes: "x0:x1,y0:y1,z0:z1", voxel indices, half open; with the suffix "mm" world coordinates, closed.
@@ -35,8 +35,8 @@ struct SmoothOptions {
 };
 
 /// Gaussian smoothing along each grid axis with sigma / spacing voxels, truncated at 4 sigma, the kernel normalised,
-/// edge samples repeated outside (as scipy.ndimage.gaussian_filter, mode "nearest"). A sheared affine is treated as if its axes
-/// were orthogonal.
+/// edge samples repeated outside (as scipy.ndimage.gaussian_filter, mode "nearest"). A sheared affine is treated as if
+/// its axes were orthogonal.
 /// Throws OptionError: sigma negative, not finite, or beyond the extent of the image.
 Volume smooth(const Volume& volume, const SmoothOptions& options);
 
@@ -45,11 +45,11 @@ struct ResampleOptions {
   bool prefilter = true;  ///< smooth first along axes that get coarser
 };
 
-/// Trilinear interpolation on an isotropic grid with the same axis directions. The field of view (voxels with their full
-/// extent) is covered and keeps its middle, so the outermost voxels stick out by under half a new voxel; beyond the
-/// first and last voxel centers the edge samples are repeated. Along axes that get coarser, detail that the new grid
-/// cannot hold is smoothed away first by a Gaussian whose full width at half maximum is sqrt(new^2 - old^2) (Cardoso et
-/// al., MICCAI 2015).
+/// Trilinear interpolation on an isotropic grid with the same axis directions. The field of view (voxels with their
+/// full extent) is covered and keeps its middle, so the outermost voxels stick out by under half a new voxel; beyond
+/// the first and last voxel centers the edge samples are repeated. Along axes that get coarser, detail that the new
+/// grid cannot hold is smoothed away first by a Gaussian whose full width at half maximum is sqrt(new^2 - old^2)
+/// (Cardoso et al., MICCAI 2015).
 /// Throws OptionError: spacing not positive and finite, more than 2^31 voxels.
 Volume resample(const Volume& volume, const ResampleOptions& options);
 
