@@ -175,7 +175,9 @@ void MeshingRun::mesh() {
 
 void MeshingRun::check() {
   throw_if_cancelled();
-  check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, {.level = CheckLevel::kCheap}); });
+  CheckOptions cheap;
+  cheap.level = CheckLevel::kCheap;
+  check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, cheap); });
   verdict_ = verdict(run_report_, check_report_);
   if (!verdict_.empty()) std::visit([](auto& mesh) { mesh.info.complete = false; }, mesh_);
 }

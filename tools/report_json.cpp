@@ -49,7 +49,7 @@ Json to_json(const Promises& promises) {
 Json to_json(const Check& check) {
   Json json{{"name", check.name},         {"status", to_string(check.status)},  {"measured", check.measured},
             {"bound", optional_json(check.bound)}, {"unit", check.unit}, {"violations", check.violations}};
-  json["where"] = check.where ? to_json(*check.where) : Json(nullptr);
+  json["where"] = check.where ? tools::to_json(*check.where) : Json(nullptr);
   if (!check.note.empty()) json["note"] = check.note;
   return json;
 }
