@@ -130,6 +130,14 @@ Json to_json(const VolumeHeader& header) {
           {"warnings", header.warnings}};
 }
 
+Json to_json(const FilterReport& report) {
+  return {{"kept", report.kept_components},
+          {"removed", report.removed_components},
+          {"removed_mm3", report.removed_mm3},
+          {"cavities_filled", report.filled_cavities},
+          {"filled_mm3", report.filled_mm3}};
+}
+
 Json to_json(const MeshInfo& info) {
   return {{"frame", to_string(info.frame)},       {"isovalue", optional_json(info.isovalue)},
           {"below", info.below},                  {"open_border", info.open_border},

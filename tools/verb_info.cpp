@@ -8,7 +8,6 @@
 #include "report_json.h"
 #include "signals.h"
 #include "text_histogram.h"
-#include "pending.h"
 #include "verbs.h"
 #include "volume_input.h"
 
@@ -29,7 +28,6 @@ struct Suggestion {
   std::string spec;  // what --iso takes
   double isovalue = 0;
   VoxelTopology topology;
-  double volume_mm3 = 0;
 };
 
 struct Findings {
@@ -47,9 +45,7 @@ std::vector<Suggestion> suggest(const Volume& volume, std::span<const float> sam
       Suggestion s;
       s.spec = classes == 2 ? "otsu" : "otsu" + std::to_string(classes) + ":" + std::to_string(i + 1);
       s.isovalue = values[i];
-      const Isosurface surface{values[i], below};
-      s.topology = voxel_topology(volume, surface);
-      s.volume_mm3 = enclosed_volume(volume, surface);
+      s.topology = count_topology(volume, {values[i], below});
       suggestions.push_back(std::move(s));
     }
   }
@@ -84,7 +80,7 @@ std::string suggestion_text(const std::vector<Suggestion>& suggestions) {
   for (const Suggestion& s : suggestions) {
     char line[160];
     std::snprintf(line, sizeof line, "%-9s %13s %10s %10zu %9zu %9zu %13ld\n", s.spec.c_str(),
-                  number(s.isovalue, 6).c_str(), number(s.volume_mm3 / 1000, 5).c_str(), s.topology.inside_components,
+                  number(s.isovalue, 6).c_str(), number(s.topology.volume_mm3 / 1000, 5).c_str(), s.topology.inside_components,
                   s.topology.surface_components, s.topology.cavities, s.topology.euler);
     text += line;
   }
@@ -116,7 +112,7 @@ Json findings_json(const Volume& volume, const Findings& findings) {
                            {"surface_components", s.topology.surface_components},
                            {"cavities", s.topology.cavities},
                            {"euler", s.topology.euler},
-                           {"volume_mm3", s.volume_mm3}});
+                           {"volume_mm3", s.topology.volume_mm3}});
   }
   const Histogram& h = findings.histogram;
   return {{"min", volume.min()},
