@@ -69,7 +69,7 @@ class MeshingRun {
   std::optional<SizeField> cell_size_;
   Mesh mesh_;
   RunReport run_report_;
-  std::string filter_sentence_;
+  FilterReport filter_report_;
   CheckReport check_report_;
   std::string verdict_;
 };
@@ -102,6 +102,7 @@ double MeshingRun::min_ball_radius() const {
   return options_.min_ball_radius.value_or(kMinBallRadiusVoxels * std::min({spacing.x, spacing.y, spacing.z}));
 }
 
+// One run of the book's algorithm.
 Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
   SurfaceCriteria surface;
   surface.size = size;
@@ -130,7 +131,7 @@ void MeshingRun::mesh_at(const SizeField& size) {
   size_ = size;
   const FilteredVolume filtered = watch_.timed(
       "components", [&] { return filter_volume(*volume_, chosen_.surface, options_.isosurface, size.minimum()); });
-  filter_sentence_ = filtered.sentence;
+  filter_report_ = filtered.report;
   throw_if_cancelled();
   const auto oracle = watch_.timed("oracle", [&] { return make_isosurface_oracle(filtered.volume, chosen_.surface); });
   throw_if_cancelled();
@@ -161,7 +162,7 @@ void MeshingRun::mesh() {
   } else {
     search_size();
   }
-  if (!filter_sentence_.empty()) console_.note(filter_sentence_);
+  if (const std::string text = describe(filter_report_); !text.empty()) console_.note(text);
   if (options_.border == "open") mesh_ = open_at_border(std::get<SurfaceMesh>(mesh_), volume_->header());
   std::visit(
       [this](auto& mesh) {
@@ -175,7 +176,9 @@ void MeshingRun::mesh() {
 
 void MeshingRun::check() {
   throw_if_cancelled();
-  check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, {.level = CheckLevel::kCheap}); });
+  CheckOptions cheap;
+  cheap.level = CheckLevel::kCheap;
+  check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, cheap); });
   verdict_ = verdict(run_report_, check_report_);
   if (!verdict_.empty()) std::visit([](auto& mesh) { mesh.info.complete = false; }, mesh_);
 }
@@ -192,7 +195,7 @@ Json MeshingRun::report() const {
           {"below", chosen_.surface.below},
           {"size", size_sentence_},
           {"largest_size_mm", size_.maximum()},
-          {"components", filter_sentence_},
+          {"components", to_json(filter_report_)},
           {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
           {"run", to_json(run_report_)},
           {"check", to_json(check_report_)},
@@ -208,6 +211,7 @@ std::string MeshingRun::summary() const {
   for (const Unmet& unmet : run_report_.unmet) {
     if (!unmet.breaks_promise) text += "left over: " + describe(unmet) + "\n";
   }
+  if (const std::string filtered = describe(filter_report_); !filtered.empty()) text += filtered + "\n";
   text += chosen_.sentence + "; " + size_sentence_ + "; frame " + to_string(frame_.target()) + "\n";
   std::string times;
   for (const StageTime& stage : watch_.stages()) {

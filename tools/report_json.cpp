@@ -49,7 +49,7 @@ Json to_json(const Promises& promises) {
 Json to_json(const Check& check) {
   Json json{{"name", check.name},         {"status", to_string(check.status)},  {"measured", check.measured},
             {"bound", optional_json(check.bound)}, {"unit", check.unit}, {"violations", check.violations}};
-  json["where"] = check.where ? to_json(*check.where) : Json(nullptr);
+  json["where"] = check.where ? tools::to_json(*check.where) : Json(nullptr);
   if (!check.note.empty()) json["note"] = check.note;
   return json;
 }
@@ -128,6 +128,14 @@ Json to_json(const VolumeHeader& header) {
           {"frame", to_string(header.frame)},
           {"index_to_world", std::move(affine)},
           {"warnings", header.warnings}};
+}
+
+Json to_json(const FilterReport& report) {
+  return {{"kept", report.kept_components},
+          {"removed", report.removed_components},
+          {"removed_mm3", report.removed_mm3},
+          {"cavities_filled", report.filled_cavities},
+          {"filled_mm3", report.filled_mm3}};
 }
 
 Json to_json(const MeshInfo& info) {

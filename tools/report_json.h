@@ -21,6 +21,7 @@ Json options_json(const CLI::App& app);
 
 Json to_json(const Point3& p);
 Json to_json(const VolumeHeader& header);
+Json to_json(const FilterReport& report);
 Json to_json(const MeshInfo& info);
 Json to_json(const RunReport& report);
 Json to_json(const CheckReport& report);

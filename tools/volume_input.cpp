@@ -96,8 +96,28 @@ ChosenIsosurface choose_isosurface(const Volume& volume, const IsosurfaceOptions
 
 FilteredVolume filter_volume(const Volume& volume, const Isosurface& surface, const IsosurfaceOptions& options,
                              double size) {
-  (void)surface, (void)options, (void)size;
-  return {volume, {}};
+  const double ball = 4.0 / 3.0 * std::numbers::pi * size * size * size;
+  const double least = options.min_component.value_or(ball);
+  FilteredVolume filtered = filter_components(volume, surface, {options.largest, least, options.fill_cavities});
+  const FilterReport& report = filtered.report;
+  if (report.kept_components == 0 && report.removed_components > 0) {
+    throw NothingToMesh("all of " + plural(report.removed_components, "component") + " lie below --min-component " +
+                        number(least) + " mm3; lower it, or give a smaller --size");
+  }
+  return filtered;
+}
+
+std::string describe(const FilterReport& report) {
+  if (report.removed_components == 0 && report.filled_cavities == 0) return {};
+  std::string text = plural(report.kept_components, "component") + " kept";
+  if (report.removed_components > 0) {
+    text += "; " + plural(report.removed_components, "component") + " taken out (" + number(report.removed_mm3) + " mm3)";
+  }
+  if (report.filled_cavities > 0) {
+    text += "; " + grouped(report.filled_cavities) + (report.filled_cavities == 1 ? " cavity" : " cavities") +
+            " filled (" + number(report.filled_mm3) + " mm3)";
+  }
+  return text;
 }
 
 }  // namespace delvox::tools

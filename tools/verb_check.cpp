@@ -1,0 +1,159 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+
+#include "console.h"
+#include "delvox/check/check_mesh.h"
+#include "delvox/core/errors.h"
+#include "delvox/mesh_io/read_mesh.h"
+#include "exit_codes.h"
+#include "format.h"
+#include "mesh_output.h"
+#include "report_json.h"
+#include "signals.h"
+#include "validators.h"
+#include "verdict.h"
+#include "verbs.h"
+#include "volume_input.h"
+
+namespace delvox::tools {
+namespace {
+
+struct Options {
+  std::vector<std::string> meshes;
+  VolumeInputOptions volume;
+  IsosurfaceOptions isosurface;
+  Promises bounds;
+  std::string border, frame, report;
+  bool same_topology = false;
+  ConsoleOptions console;
+
+  Options() { isosurface.iso.clear(); }
+};
+
+void add_bound(CLI::App& app, const std::string& flag, std::optional<double>& bound, const std::string& text,
+               const std::string& unit) {
+  app.add_option(flag, bound, text)->check(finite_number(Zero::kAllowed))->type_name(unit);
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("MESH", options.meshes, "Meshes: .vtu .vtk .stl .ply .off .obj .mesh .msh .inp")->required();
+  auto* volume = app.add_option("--volume", options.volume.path, "Compare with this volume, preprocessed as below");
+  volume->type_name("VOLUME");
+  add_isovalue_options(app, options.isosurface);
+  app.get_option("--iso")->needs(volume)->default_str("what the mesh carries");
+  app.add_flag("--same-topology", options.same_topology,
+               "Components and Euler number must equal those of the volume's isosurface")
+      ->needs(volume);
+  add_bound(app, "--min-angle", options.bounds.min_angle_degrees, "Lower bound on the angles of triangles", "DEG");
+  add_bound(app, "--radius-edge", options.bounds.radius_edge, "Upper bound on circumradius / shortest edge", "RATIO");
+  add_bound(app, "--cell-size", options.bounds.cell_size, "Upper bound on the circumradii of tets, mm", "MM");
+  add_bound(app, "--min-dihedral", options.bounds.min_dihedral_degrees, "Lower bound on dihedral angles of tets", "DEG");
+  app.add_option("--border", options.border, "open: the surface may end at the image border (default: as the mesh says)")
+      ->check(CLI::IsMember({"close", "open"}))
+      ->type_name("HOW");
+  app.add_option("--frame", options.frame, "Patient frame of meshes that state none: ras or lps (default: the volume's)")
+      ->check(CLI::IsMember({"ras", "lps"}))
+      ->type_name("FRAME");
+  add_reading_options(app, options.volume);
+  add_preprocessing_options(app, options.volume);
+  add_component_options(app, options.isosurface);
+  app.add_option("--report", options.report, "Write the results to a JSON file")->type_name("FILE.json");
+  add_config_option(app);
+  add_console_options(app, options.console, JsonFlag::kOffered);
+  app.footer("Bounds that no flag gives are those that the mesh file carries, if any. Topology and orientation are always "
+             "checked.");
+}
+
+const MeshInfo& info_of(const Mesh& mesh) {
+  return std::visit([](const auto& m) -> const MeshInfo& { return m.info; }, mesh);
+}
+
+Promises bounds_for(const MeshInfo& info, const Promises& given) {
+  Promises bounds = info.promises;
+  if (given.min_angle_degrees) bounds.min_angle_degrees = given.min_angle_degrees;
+  if (given.radius_edge) bounds.radius_edge = given.radius_edge;
+  if (given.cell_size) bounds.cell_size = given.cell_size;
+  if (given.min_dihedral_degrees) bounds.min_dihedral_degrees = given.min_dihedral_degrees;
+  return bounds;
+}
+
+// The isosurface that a mesh is held to, in the volume as meshed: preprocessed, small components taken out.
+struct Reference {
+  Isosurface surface;
+  Volume volume;
+};
+
+Reference reference_for(const std::string& path, const MeshInfo& info, const Volume& volume, const Options& options) {
+  Isosurface surface{info.isovalue.value_or(0), info.below || options.isosurface.below};
+  if (!options.isosurface.iso.empty()) {
+    surface = choose_isosurface(volume, options.isosurface, FrameChange(volume.header().frame, options.frame)).surface;
+    surface.below = info.below || options.isosurface.below;
+  } else if (!info.isovalue) {
+    throw OptionError(path + ": carries no isovalue; give --iso");
+  }
+  const double size = info.promises.size.value_or(0);
+  return {surface, filter_volume(volume, surface, options.isosurface, size).volume};
+}
+
+// Carries a mesh to the frame of the volume; a mesh that states no frame is in --frame, or else in the volume's.
+void to_frame_of_volume(Mesh& mesh, Frame of_volume, const Options& options) {
+  Frame own = info_of(mesh).frame;
+  if (own == Frame::kUnknown && !options.frame.empty()) own = options.frame == "ras" ? Frame::kRas : Frame::kLps;
+  if (of_volume != Frame::kUnknown) FrameChange(own, of_volume == Frame::kRas ? "ras" : "lps").apply(mesh);
+}
+
+CheckReport check_file(const std::string& path, const std::optional<Volume>& volume, const Options& options,
+                       const Console& console) {
+  MeshFile file = read_mesh(path);
+  throw_if_cancelled();
+  console.note(path + ": " + file.format + ", " + describe_counts(file.mesh));
+  CheckOptions check;
+  check.bounds = bounds_for(info_of(file.mesh), options.bounds);
+  if (!options.border.empty()) check.open_border = options.border == "open";
+  check.coordinate_error = file.coordinate_error;
+  check.require_voxel_topology = options.same_topology;
+  std::optional<Reference> reference;
+  if (volume) {
+    reference = reference_for(path, info_of(file.mesh), *volume, options);
+    to_frame_of_volume(file.mesh, volume->header().frame, options);
+    check.volume = &reference->volume;
+    check.isosurface = reference->surface;
+  }
+  return check_mesh(file.mesh, check);
+}
+
+}  // namespace
+
+void run_check(const Verb& verb, const Arguments& arguments) {
+  CLI::App app(std::string(verb.summary) + "\n", std::string("delvox ") + verb.name);
+  Options options;
+  add_options(app, options);
+  if (!parse_arguments(app, arguments)) return;
+
+  for (const std::string& mesh : options.meshes) check_output(options.report, mesh);
+  const Console console(options.console);
+  std::optional<Volume> volume;
+  if (!options.volume.path.empty()) {
+    const Volume whole = load_volume(options.volume, console);
+    volume = preprocess(whole, options.volume, FrameChange(whole.header().frame, options.frame));
+  }
+  Json json = run_header(verb, arguments);
+  json["options"] = options_json(app);
+  json["meshes"] = Json::array();
+  std::string first_fault;
+  for (const std::string& path : options.meshes) {
+    throw_if_cancelled();
+    const CheckReport report = check_file(path, volume, options, console);
+    console.result((options.meshes.size() > 1 ? path + "\n" : "") + to_text(report));
+    Json result{{"mesh", path}};
+    result.update(to_json(report));
+    json["meshes"].push_back(std::move(result));
+    if (first_fault.empty() && !report.all_hold()) first_fault = path + ": " + verdict(report);
+  }
+  if (!options.report.empty()) write_json(json, options.report);
+  if (console.json()) console.machine_result(text_of(json));
+  if (!first_fault.empty()) throw PromiseBroken(first_fault);
+}
+
+}  // namespace delvox::tools

@@ -1,0 +1,160 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+
+#include "console.h"
+#include "delvox/volume/histogram.h"
+#include "delvox/volume/voxel_topology.h"
+#include "format.h"
+#include "report_json.h"
+#include "signals.h"
+#include "text_histogram.h"
+#include "verbs.h"
+#include "volume_input.h"
+
+namespace delvox::tools {
+namespace {
+
+constexpr double kPercents[] = {1, 5, 25, 50, 75, 95, 99};
+constexpr int kHistogramBins = 64;
+
+struct Options {
+  VolumeInputOptions volume;
+  bool below = false;
+  ConsoleOptions console;
+};
+
+// An isovalue that info proposes, and what it would enclose.
+struct Suggestion {
+  std::string spec;  // what --iso takes
+  double isovalue = 0;
+  VoxelTopology topology;
+};
+
+struct Findings {
+  std::vector<double> percentiles;
+  Histogram histogram;
+  std::vector<Suggestion> suggestions;
+};
+
+std::vector<Suggestion> suggest(const Volume& volume, std::span<const float> samples, bool below) {
+  std::vector<Suggestion> suggestions;
+  for (int classes = 2; classes <= 4; ++classes) {
+    const std::vector<double> values = otsu_isovalues(samples, classes);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      throw_if_cancelled();
+      Suggestion s;
+      s.spec = classes == 2 ? "otsu" : "otsu" + std::to_string(classes) + ":" + std::to_string(i + 1);
+      s.isovalue = values[i];
+      s.topology = count_topology(volume, {values[i], below});
+      suggestions.push_back(std::move(s));
+    }
+  }
+  return suggestions;
+}
+
+Findings find(const Volume& volume, bool below) {
+  const std::vector<float> samples = volume.samples();
+  Findings findings;
+  findings.percentiles = percentiles(samples, kPercents);
+  findings.histogram = make_histogram(samples, kHistogramBins);
+  findings.suggestions = suggest(volume, samples, below);
+  return findings;
+}
+
+std::string header_text(const std::string& path, const VolumeHeader& header) {
+  const Vector3 spacing = header.spacing();
+  const auto& n = header.dims;
+  std::string text = path + ": " + header.format + ", " + header.sample_type + "\n";
+  text += "voxels       " + std::to_string(n[0]) + " x " + std::to_string(n[1]) + " x " + std::to_string(n[2]) + "\n";
+  text += "spacing      " + point(spacing) + " mm\n";
+  text += "extent       " + point({n[0] * spacing.x, n[1] * spacing.y, n[2] * spacing.z}) + " mm\n";
+  text += "orientation  " + header.orientation() + ", frame " + to_string(header.frame) + "\n";
+  text += "first voxel  " + point(header.index_to_world({0, 0, 0})) + " mm\n";
+  for (const std::string& warning : header.warnings) text += "warning      " + warning + "\n";
+  return text;
+}
+
+std::string suggestion_text(const std::vector<Suggestion>& suggestions) {
+  if (suggestions.empty()) return "isovalues    none: all samples are equal\n";
+  std::string text = "--iso             value  inside/ml     pieces  surfaces  cavities  Euler number\n";
+  for (const Suggestion& s : suggestions) {
+    char line[160];
+    std::snprintf(line, sizeof line, "%-9s %13s %10s %10zu %9zu %9zu %13ld\n", s.spec.c_str(),
+                  number(s.isovalue, 6).c_str(), number(s.topology.volume_mm3 / 1000, 5).c_str(), s.topology.inside_components,
+                  s.topology.surface_components, s.topology.cavities, s.topology.euler);
+    text += line;
+  }
+  return text;
+}
+
+std::string findings_text(const Volume& volume, const Findings& findings) {
+  std::string text = "range        " + number(volume.min(), 7) + " to " + number(volume.max(), 7) + "\npercentiles  ";
+  for (std::size_t i = 0; i < std::size(kPercents); ++i) {
+    text += (i > 0 ? ", p" : "p") + number(kPercents[i]) + " " + number(findings.percentiles[i], 6);
+  }
+  std::vector<double> marks;
+  for (const Suggestion& s : findings.suggestions) {
+    if (s.spec == "otsu" || s.spec.starts_with("otsu3")) marks.push_back(s.isovalue);
+  }
+  return text + "\n\n" + text_histogram(findings.histogram, marks) + "\n" + suggestion_text(findings.suggestions);
+}
+
+Json findings_json(const Volume& volume, const Findings& findings) {
+  Json percentile_values = Json::object();
+  for (std::size_t i = 0; i < std::size(kPercents); ++i) {
+    percentile_values["p" + number(kPercents[i])] = findings.percentiles[i];
+  }
+  Json suggestions = Json::array();
+  for (const Suggestion& s : findings.suggestions) {
+    suggestions.push_back({{"iso", s.spec},
+                           {"isovalue", s.isovalue},
+                           {"inside_components", s.topology.inside_components},
+                           {"surface_components", s.topology.surface_components},
+                           {"cavities", s.topology.cavities},
+                           {"euler", s.topology.euler},
+                           {"volume_mm3", s.topology.volume_mm3}});
+  }
+  const Histogram& h = findings.histogram;
+  return {{"min", volume.min()},
+          {"max", volume.max()},
+          {"percentiles", std::move(percentile_values)},
+          {"histogram", {{"low", h.low}, {"high", h.high}, {"counts", h.counts}}},
+          {"isovalues", std::move(suggestions)}};
+}
+
+void add_options(CLI::App& app, Options& options) {
+  app.add_option("VOLUME", options.volume.path, "The scan: .nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices")
+      ->required();
+  app.add_flag("--below", options.below, "Count components at or below each isovalue");
+  add_reading_options(app, options.volume);
+  add_preprocessing_options(app, options.volume);
+  add_config_option(app);
+  add_console_options(app, options.console, JsonFlag::kOffered);
+}
+
+}  // namespace
+
+void run_info(const Verb& verb, const Arguments& arguments) {
+  CLI::App app(std::string(verb.summary) + "\n", std::string("delvox ") + verb.name);
+  Options options;
+  add_options(app, options);
+  if (!parse_arguments(app, arguments)) return;
+
+  const Console console(options.console);
+  const Volume whole = read_volume(options.volume.path, options.volume.read);
+  throw_if_cancelled();
+  const Volume volume = preprocess(whole, options.volume, FrameChange());
+  const Findings findings = find(volume, options.below);
+  if (console.json()) {
+    Json json = run_header(verb, arguments);
+    json["volume"] = to_json(volume.header());
+    json["volume"]["extent_mm"] = {volume.dims()[0] * volume.header().spacing().x,
+                                   volume.dims()[1] * volume.header().spacing().y,
+                                   volume.dims()[2] * volume.header().spacing().z};
+    json.update(findings_json(volume, findings));
+    console.machine_result(text_of(json));
+  }
+  console.result(header_text(options.volume.path, volume.header()) + findings_text(volume, findings));
+}
+
+}  // namespace delvox::tools
