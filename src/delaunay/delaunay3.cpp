@@ -34,6 +34,7 @@ CellId Delaunay3::name_cell(Triangulation::Cell_handle handle) {
   if (free_cells_.empty()) {
     id = static_cast<CellId>(cells_.size());
     cells_.push_back(handle);
+    links_.emplace_back();
   } else {
     id = free_cells_.back();
     free_cells_.pop_back();
@@ -41,6 +42,14 @@ CellId Delaunay3::name_cell(Triangulation::Cell_handle handle) {
   }
   handle->info() = id;
   return id;
+}
+
+void Delaunay3::copy_links(CellId cell) {
+  const auto& handle = cells_[cell];
+  for (int i = 0; i < 4; ++i) {
+    links_[cell].vertices[i] = handle->vertex(i)->info();
+    links_[cell].neighbors[i] = handle->neighbor(i)->info();
+  }
 }
 
 void Delaunay3::name_all_cells() {
@@ -52,6 +61,8 @@ void Delaunay3::name_all_cells() {
     cell->info() = static_cast<CellId>(cells_.size());
     cells_.push_back(cell);
   }
+  links_.resize(cells_.size());
+  for (CellId cell = 0; cell < cells_.size(); ++cell) copy_links(cell);
 }
 
 CellId Delaunay3::locate(const Point3& p, CellId hint) const {
@@ -63,24 +74,31 @@ bool Delaunay3::in_conflict(CellId cell, const Point3& p) const {
 }
 
 bool Delaunay3::is_vertex_of(CellId cell, const Point3& p) const {
-  for (int i = 0; i < 4; ++i) {
-    if (!triangulation_.is_infinite(cells_[cell]->vertex(i)) && point(vertex(cell, i)) == p) return true;
+  for (VertexId v : links_[cell].vertices) {
+    if (v != kNone && point(v) == p) return true;
   }
   return false;
 }
 
-VertexId Delaunay3::insert_in_hole(const Point3& p, const std::vector<CellId>& zone, FacetId boundary) {
+VertexId Delaunay3::insert_in_hole(const Point3& p, const std::vector<CellId>& zone,
+                                   const std::vector<FacetId>& boundary, std::vector<CellId>& created) {
   handles_.clear();
+  outer_.clear();
   for (CellId cell : zone) handles_.push_back(cells_[cell]);
-  const auto vertex = triangulation_.insert_in_hole({p.x, p.y, p.z}, handles_.begin(), handles_.end(),
-                                                    cells_[boundary.cell], boundary.index);
+  for (const FacetId& facet : boundary) outer_.push_back(mirror(facet));
+  const auto handle = triangulation_.insert_in_hole({p.x, p.y, p.z}, handles_.begin(), handles_.end(),
+                                                    cells_[boundary.front().cell], boundary.front().index);
+  const VertexId vertex = name_vertex(handle);
   // Freed in reverse, so that the zone's first cell is used first again: neighbours stay near in memory.
   for (auto cell = zone.rbegin(); cell != zone.rend(); ++cell) free_cells_.push_back(*cell);
-  return name_vertex(vertex);
-}
-
-CellId Delaunay3::name_new_cell_beyond(FacetId facet) {
-  return name_cell(cells_[facet.cell]->neighbor(facet.index));
+  created.clear();
+  for (const FacetId& facet : outer_) {
+    const CellId cell = name_cell(cells_[facet.cell]->neighbor(facet.index));
+    links_[facet.cell].neighbors[facet.index] = cell;
+    created.push_back(cell);
+  }
+  for (CellId cell : created) copy_links(cell);
+  return vertex;
 }
 
 VertexId Delaunay3::insert_unnamed(const Point3& p) {
@@ -93,19 +111,19 @@ VertexId Delaunay3::insert_unnamed(const Point3& p) {
 void Delaunay3::remove(VertexId vertex, std::vector<CellId>& destroyed, std::vector<CellId>& created) {
   destroyed.clear();
   created.clear();
-  incident_cells(vertex, destroyed);
+  handles_.clear();
+  triangulation_.incident_cells(vertices_[vertex], std::back_inserter(handles_));
+  for (const auto& handle : handles_) destroyed.push_back(handle->info());
   handles_.clear();
   triangulation_.remove_and_give_new_cells(vertices_[vertex], std::back_inserter(handles_));
   for (CellId cell : destroyed) free_cells_.push_back(cell);
   for (const auto& handle : handles_) created.push_back(name_cell(handle));
+  for (CellId cell : created) {
+    copy_links(cell);
+    for (int i = 0; i < 4; ++i) copy_links(cells_[cell]->neighbor(i)->info());
+  }
   vertices_[vertex] = Triangulation::Vertex_handle();
   free_vertices_.push_back(vertex);
-}
-
-void Delaunay3::incident_cells(VertexId vertex, std::vector<CellId>& out) const {
-  handles_.clear();
-  triangulation_.incident_cells(vertices_[vertex], std::back_inserter(handles_));
-  for (const auto& handle : handles_) out.push_back(handle->info());
 }
 
 }  // namespace delvox

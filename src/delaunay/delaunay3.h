@@ -6,6 +6,7 @@
 #include <CGAL/Triangulation_cell_base_with_info_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -44,14 +45,18 @@ class Delaunay3 {
   std::size_t vertex_capacity() const { return vertices_.size(); }
   std::size_t vertex_count() const { return triangulation_.number_of_vertices(); }
 
-  /// False for cells with the infinite vertex.
-  bool finite(CellId cell) const { return !triangulation_.is_infinite(cells_[cell]); }
-  VertexId vertex(CellId cell, int i) const { return cells_[cell]->vertex(i)->info(); }
-  CellId neighbor(CellId cell, int i) const { return cells_[cell]->neighbor(i)->info(); }
+  /// False for cells with the infinite vertex, whose number is kNone.
+  bool finite(CellId cell) const {
+    const auto& v = links_[cell].vertices;
+    return v[0] != kNone && v[1] != kNone && v[2] != kNone && v[3] != kNone;
+  }
+  const std::array<VertexId, 4>& vertices(CellId cell) const { return links_[cell].vertices; }
+  const std::array<CellId, 4>& neighbors(CellId cell) const { return links_[cell].neighbors; }
   FacetId mirror(FacetId facet) const {
-    const auto handle = cells_[facet.cell];
-    const auto other = handle->neighbor(facet.index);
-    return {other->info(), other->index(handle)};
+    const CellId other = links_[facet.cell].neighbors[facet.index];
+    const auto& back = links_[other].neighbors;
+    // Two cells share one facet only, once there are more than five points.
+    return {other, back[0] == facet.cell ? 0 : back[1] == facet.cell ? 1 : back[2] == facet.cell ? 2 : 3};
   }
   Point3 point(VertexId vertex) const {
     const auto& p = vertices_[vertex]->point();
@@ -64,18 +69,18 @@ class Delaunay3 {
   bool in_conflict(CellId cell, const Point3& p) const;
   bool is_vertex_of(CellId cell, const Point3& p) const;
 
-  /// Replaces the conflict zone by the star of p; `boundary` is one facet of the zone's boundary, seen from inside it.
-  /// The zone's cell numbers are free afterwards; new cells have none until name_cell.
-  VertexId insert_in_hole(const Point3& p, const std::vector<CellId>& zone, FacetId boundary);
-  /// Numbers the new cell on the other side of `facet`.
-  CellId name_new_cell_beyond(FacetId facet);
+  /// Replaces the conflict zone by the star of p. `boundary` holds the facets of the zone's boundary, seen from inside;
+  /// `created` receives the new cells in the same order.
+  VertexId insert_in_hole(const Point3& p, const std::vector<CellId>& zone, const std::vector<FacetId>& boundary,
+                          std::vector<CellId>& created);
   /// Inserts with CGAL's own search; new cells have no numbers until name_all_cells().
   VertexId insert_unnamed(const Point3& p);
   /// Numbers every cell from 0; numbers used before are void.
   void name_all_cells();
   /// Removes a vertex; `created` receives the numbers of the cells that fill the hole, `destroyed` those freed.
   void remove(VertexId vertex, std::vector<CellId>& destroyed, std::vector<CellId>& created);
-  void incident_cells(VertexId vertex, std::vector<CellId>& out) const;
+  /// Some cell at the vertex.
+  CellId cell_of(VertexId vertex) const { return vertices_[vertex]->cell()->info(); }
 
  private:
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -87,14 +92,23 @@ class Delaunay3 {
 
   VertexId name_vertex(Triangulation::Vertex_handle handle);
   CellId name_cell(Triangulation::Cell_handle handle);
+  void copy_links(CellId cell);
+
+  /// CGAL's pointers as numbers: all that searches read, in half a cache line.
+  struct Links {
+    std::array<VertexId, 4> vertices;
+    std::array<CellId, 4> neighbors;
+  };
 
   Triangulation triangulation_;
   std::vector<Triangulation::Cell_handle> cells_;
+  std::vector<Links> links_;
   std::vector<Triangulation::Vertex_handle> vertices_;
   std::vector<CellId> free_cells_;
   std::vector<VertexId> free_vertices_;
   Triangulation::Cell_handle last_;
-  mutable std::vector<Triangulation::Cell_handle> handles_;  // scratch
+  std::vector<Triangulation::Cell_handle> handles_;  // scratch
+  std::vector<FacetId> outer_;                       // scratch
 };
 
 }  // namespace delvox

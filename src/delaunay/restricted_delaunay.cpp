@@ -24,21 +24,31 @@ RestrictedDelaunay::RestrictedDelaunay(const Oracle& oracle)
 RestrictedDelaunay::~RestrictedDelaunay() = default;
 
 std::size_t RestrictedDelaunay::vertex_count() const { return kernel_->vertex_count() - 4; }
-CellId RestrictedDelaunay::neighbor(CellId cell, int i) const { return kernel_->neighbor(cell, i); }
+const std::array<CellId, 4>& RestrictedDelaunay::neighbors(CellId cell) const { return kernel_->neighbors(cell); }
+const std::array<VertexId, 4>& RestrictedDelaunay::vertices(CellId cell) const { return kernel_->vertices(cell); }
 FacetId RestrictedDelaunay::mirror(FacetId facet) const { return kernel_->mirror(facet); }
-bool RestrictedDelaunay::is_finite(CellId cell) const { return kernel_->finite(cell); }
-void RestrictedDelaunay::incident_cells(VertexId vertex, std::vector<CellId>& out) const {
-  kernel_->incident_cells(vertex, out);
-}
-
-std::array<VertexId, 4> RestrictedDelaunay::vertices(CellId cell) const {
-  return {kernel_->vertex(cell, 0), kernel_->vertex(cell, 1), kernel_->vertex(cell, 2), kernel_->vertex(cell, 3)};
-}
+CellId RestrictedDelaunay::locate(const Point3& p, CellId hint) const { return kernel_->locate(p, hint); }
 
 std::array<VertexId, 3> RestrictedDelaunay::vertices(FacetId facet) const {
   const auto& corners = kTetFaces[facet.index];
-  return {kernel_->vertex(facet.cell, corners[0]), kernel_->vertex(facet.cell, corners[1]),
-          kernel_->vertex(facet.cell, corners[2])};
+  const auto& v = kernel_->vertices(facet.cell);
+  return {v[corners[0]], v[corners[1]], v[corners[2]]};
+}
+
+const std::vector<CellId>& RestrictedDelaunay::incident_cells(VertexId vertex) const {
+  epoch_ += 2;
+  around_.assign(1, kernel_->cell_of(vertex));
+  visited_[around_.front()] = epoch_;
+  for (std::size_t next = 0; next < around_.size(); ++next) {
+    const auto& v = kernel_->vertices(around_[next]);
+    const auto n = kernel_->neighbors(around_[next]);
+    for (int i = 0; i < 4; ++i) {
+      if (v[i] == vertex || visited_[n[i]] == epoch_) continue;
+      visited_[n[i]] = epoch_;
+      around_.push_back(n[i]);
+    }
+  }
+  return around_;
 }
 
 void RestrictedDelaunay::name_vertex(VertexId vertex, const Point3& p, VertexKind kind) {
@@ -76,7 +86,7 @@ void RestrictedDelaunay::describe_cell(CellId cell) {
   data.stamp = next_stamp_++;
   cell_balls_[cell] = {-1, -1, -1, -1};
   if (!kernel_->finite(cell)) return;
-  const auto v = vertices(cell);
+  const auto& v = vertices(cell);
   data.sphere = circumsphere(points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]);
   data.label = oracle_.label(data.sphere.center);
 }
@@ -155,7 +165,7 @@ void RestrictedDelaunay::find_zone(const Point3& p, CellId start) {
   for (std::size_t next = 0; next < star_.zone.size(); ++next) {
     const CellId cell = star_.zone[next];
     for (int i = 0; i < 4; ++i) {
-      const CellId neighbor = kernel_->neighbor(cell, i);
+      const CellId neighbor = kernel_->neighbors(cell)[i];
       if (visited_[neighbor] != epoch_ && visited_[neighbor] != epoch_ + 1) {
         const bool conflict = in_conflict(neighbor, p);
         visited_[neighbor] = conflict ? epoch_ : epoch_ + 1;
@@ -179,7 +189,6 @@ Star::Tet RestrictedDelaunay::make_star_tet(FacetId inner) const {
 const Star& RestrictedDelaunay::evaluate(const Point3& p, CellId hint) {
   find_zone(p, hint);
   if (star_.duplicate) return star_;
-  star_.zone_boundary = inner_facets_.front();
   for (const FacetId& inner : inner_facets_) star_.tets.push_back(make_star_tet(inner));
   return star_;
 }
@@ -195,29 +204,24 @@ VertexId RestrictedDelaunay::commit(VertexKind kind) {
   }
   for (CellId cell : star_.zone) {
     for (int i = 0; i < 4; ++i) {
-      if (visited_[kernel_->neighbor(cell, i)] == epoch_) drop_ball({cell, i});
+      if (visited_[kernel_->neighbors(cell)[i]] == epoch_) drop_ball({cell, i});
     }
     cells_[cell].stamp = 0;
   }
-  const VertexId vertex = kernel_->insert_in_hole(star_.apex, star_.zone, star_.zone_boundary);
+  const VertexId vertex = kernel_->insert_in_hole(star_.apex, star_.zone, inner_facets_, created_);
   name_vertex(vertex, star_.apex, kind);
-  created_.clear();
-  for (const Star::Tet& tet : star_.tets) {
-    const CellId cell = kernel_->name_new_cell_beyond(tet.outer);
-    ensure_cell(cell);
-    cells_[cell] = {tet.sphere, tet.label, next_stamp_++};
-    cell_balls_[cell] = {-1, -1, -1, -1};
-    const FacetId own = mirror(tet.outer);
-    set_ball(own, cell_balls_[tet.outer.cell][tet.outer.index]);
-    created_.push_back(cell);
+  for (std::size_t i = 0; i < created_.size(); ++i) {
+    const Star::Tet& tet = star_.tets[i];
+    ensure_cell(created_[i]);
+    cells_[created_[i]] = {tet.sphere, tet.label, next_stamp_++};
+    cell_balls_[created_[i]] = {-1, -1, -1, -1};
+    set_ball(mirror(tet.outer), cell_balls_[tet.outer.cell][tet.outer.index]);
   }
   return vertex;
 }
 
 void RestrictedDelaunay::remove(VertexId vertex) {
-  std::vector<CellId> around;
-  kernel_->incident_cells(vertex, around);
-  for (CellId cell : around) {
+  for (CellId cell : incident_cells(vertex)) {
     drop_balls_of(cell);
     cells_[cell].stamp = 0;
   }

@@ -39,7 +39,6 @@ struct Star {
   Point3 apex;
   bool duplicate = false;        ///< the apex is a vertex already; zone and tets are empty
   std::vector<CellId> zone;      ///< cells whose circumsphere contains the apex
-  FacetId zone_boundary;         ///< one boundary facet, seen from inside the zone
   std::vector<Tet> tets;
 };
 
@@ -61,16 +60,17 @@ class RestrictedDelaunay {
   bool alive(CellId cell, std::uint32_t stamp) const { return cells_[cell].stamp == stamp; }
   const Cell& cell(CellId cell) const { return cells_[cell]; }
   /// In positive order; cells with corner vertices included.
-  std::array<VertexId, 4> vertices(CellId cell) const;
+  const std::array<VertexId, 4>& vertices(CellId cell) const;
+  /// Counter-clockwise seen from outside the cell.
   std::array<VertexId, 3> vertices(FacetId facet) const;
-  CellId neighbor(CellId cell, int i) const;
+  const std::array<CellId, 4>& neighbors(CellId cell) const;
   FacetId mirror(FacetId facet) const;
   VertexKind kind(VertexId vertex) const { return kinds_[vertex]; }
   const Point3& point(VertexId vertex) const { return points_[vertex]; }
-  /// False once for numbers not in use.
-  bool is_finite(CellId cell) const;
-  /// Cells around a vertex.
-  void incident_cells(VertexId vertex, std::vector<CellId>& out) const;
+  /// Cells around a vertex, in an order that depends on the triangulation alone. Valid until the next call.
+  const std::vector<CellId>& incident_cells(VertexId vertex) const;
+  /// The cell that contains p, by a walk from `hint`.
+  CellId locate(const Point3& p, CellId hint) const;
 
   /// Is the facet's dual edge bipolar?
   bool bipolar(FacetId facet) const { return cells_[facet.cell].label != cells_[mirror(facet).cell].label; }
@@ -108,16 +108,18 @@ class RestrictedDelaunay {
   std::unique_ptr<Kernel> kernel_;
   std::vector<Cell> cells_;
   std::vector<std::array<std::int32_t, 4>> cell_balls_;  // index into balls_ per facet, -1: none
-  std::vector<std::uint32_t> visited_;                   // epoch of the last zone search that saw the cell
+  mutable std::vector<std::uint32_t> visited_;           // epoch of the last search that saw the cell
   std::vector<Point3> points_;
   std::vector<VertexKind> kinds_;
   std::vector<SurfaceBall> balls_;
   std::vector<std::int32_t> free_balls_;
-  std::vector<CellId> created_, destroyed_, stack_;
+  std::vector<CellId> created_, destroyed_;
+  mutable std::vector<CellId> around_;
   Star star_;
   std::vector<FacetId> inner_facets_;
   double trusted_squared_radius_ = 0;
-  std::uint32_t epoch_ = 0, next_stamp_ = 1;
+  mutable std::uint32_t epoch_ = 0;
+  std::uint32_t next_stamp_ = 1;
 };
 
 }  // namespace delvox

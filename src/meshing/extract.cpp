@@ -34,7 +34,7 @@ void for_each_inside_cell(const RestrictedDelaunay& delaunay, const Visit& visit
 /// Triangles of `cell` that face the outside.
 void add_boundary(const RestrictedDelaunay& delaunay, CellId cell, Numbering& number, std::vector<Triangle>& out) {
   for (int i = 0; i < 4; ++i) {
-    if (delaunay.cell(delaunay.neighbor(cell, i)).label != 0) continue;
+    if (delaunay.cell(delaunay.neighbors(cell)[i]).label != 0) continue;
     const auto v = delaunay.vertices(FacetId{cell, i});
     out.push_back({number(v[0]), number(v[1]), number(v[2])});
   }
@@ -53,7 +53,7 @@ TetMesh extract_tets(const RestrictedDelaunay& delaunay) {
   TetMesh mesh;
   Numbering number(delaunay, mesh.points);
   for_each_inside_cell(delaunay, [&](CellId cell) {
-    const auto v = delaunay.vertices(cell);
+    const auto& v = delaunay.vertices(cell);
     mesh.tets.push_back({number(v[0]), number(v[1]), number(v[2]), number(v[3])});
     mesh.regions.push_back(delaunay.cell(cell).label);
     add_boundary(delaunay, cell, number, mesh.boundary);

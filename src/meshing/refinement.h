@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "delaunay/restricted_delaunay.h"
 #include "delvox/core/run.h"
 #include "delvox/meshing/criteria.h"
 #include "delvox/oracle/oracle.h"
+#include "meshing/pieces.h"
 #include "meshing/run_budget.h"
 
 namespace delvox {
@@ -26,6 +28,11 @@ class Refinement {
   void refine_surface();
   /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
   bool repair_topology();
+
+  /// One insertion for each landmark of the oracle that lies on the wrong side of the mesh; if there is none, for each
+  /// link between pieces that should be one, and each piece without a landmark. True if anything was inserted. Not in
+  /// the book: trilinear surfaces have necks and gaps of any width, which no size field foresees.
+  bool repair_landmarks();
 
   /// From now on tetrahedra that break `criteria` are kept in a stack.
   void watch_tets(const TetCriteria& criteria);
@@ -58,6 +65,13 @@ class Refinement {
   void mark_dirty(FacetId facet);
   void commit(VertexKind kind);
   bool repair_umbrella(VertexId vertex);
+
+  // Landmarks (landmark_repair.cpp)
+  std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell) const;
+  bool insert_for_landmark(const Point3& p, CellId hint);
+  bool repair_pieces(const std::vector<CellId>& landmark_cells);
+  std::optional<Point3> crossing_on_link(Point3 a, Point3 b, CellId cell_a, const Pieces& pieces) const;
+  std::vector<SurfaceBall> largest_balls(const Pieces& pieces) const;
   bool budget_left() { return budget_.go_on(delaunay_.vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
 
   // Tetrahedra (tet_refinement.cpp)
@@ -78,9 +92,10 @@ class Refinement {
   std::vector<WaitingTet> tets_;      // last in, first out
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
+  Landmarks landmarks_;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
-  std::size_t too_deviant_ = 0, stuck_ = 0;
-  Point3 deviant_place_, stuck_place_;
+  std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
+  Point3 deviant_place_, stuck_place_, lost_place_;
 };
 
 }  // namespace delvox

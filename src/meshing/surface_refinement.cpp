@@ -17,6 +17,7 @@ void Refinement::insert_seeds() {
   const Seeds seeds = oracle_.seeds([this](const Point3& p) { return surface_.size(p); });
   if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
   report_.components = seeds.components;
+  landmarks_ = oracle_.landmarks([this](const Point3& p) { return surface_.size(p); });
   delaunay_.insert_seeds(seeds.points);
   enqueue_created();
 }
@@ -171,6 +172,8 @@ void Refinement::report_unmet() {
   }
   tell("topology", broken, where, "the triangles at a vertex form no disk at the smallest ball radius", true);
   tell("deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false);
+  tell("landmark", lost_landmarks_, lost_place_, "a neck, gap or speck of the voxels is below the smallest ball radius",
+       false);
   tell("refinement", stuck_, stuck_place_, "a new point coincides with a vertex", true);
 }
 

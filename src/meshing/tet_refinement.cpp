@@ -6,7 +6,7 @@ namespace delvox {
 namespace {
 
 double shortest_squared_edge(const RestrictedDelaunay& delaunay, CellId cell) {
-  const auto v = delaunay.vertices(cell);
+  const auto& v = delaunay.vertices(cell);
   double shortest = squared_distance(delaunay.point(v[0]), delaunay.point(v[1]));
   for (int i = 0; i < 4; ++i) {
     for (int j = std::max(i + 1, 2); j < 4; ++j) {

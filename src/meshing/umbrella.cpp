@@ -41,12 +41,10 @@ bool is_one_cycle(std::vector<LinkEdge> edges) {
 
 Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
   Umbrella umbrella;
-  std::vector<CellId> around;
-  delaunay.incident_cells(vertex, around);
   std::vector<LinkEdge> link;
-  for (CellId cell : around) {
+  for (CellId cell : delaunay.incident_cells(vertex)) {
     for (int i = 0; i < 4; ++i) {
-      const CellId neighbor = delaunay.neighbor(cell, i);
+      const CellId neighbor = delaunay.neighbors(cell)[i];
       // Each facet is met from both of its cells: take it from the one with the larger label.
       if (delaunay.cell(cell).label <= delaunay.cell(neighbor).label) continue;
       const auto corners = delaunay.vertices(FacetId{cell, i});

@@ -6,6 +6,7 @@
 #include "delvox/core/errors.h"
 #include "oracle/bracketed_root.h"
 #include "oracle/brick_field.h"
+#include "oracle/voxel_landmarks.h"
 #include "oracle/voxel_seeds.h"
 
 namespace delvox {
@@ -53,6 +54,8 @@ class IsosurfaceOracle final : public SmoothOracle {
     return seeds;
   }
 
+  Landmarks landmarks(const Spacing& spacing) const override;
+
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<IsosurfaceOracle>(*this); }
 
  private:
@@ -66,6 +69,24 @@ class IsosurfaceOracle final : public SmoothOracle {
   Affine3 to_world_, to_grid_;
   Box3 bounds_;
 };
+
+Landmarks IsosurfaceOracle::landmarks(const Spacing& spacing) const {
+  // A mesh coarser than the voxels cannot follow every voxel; nor is it asked to.
+  const double voxel = std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
+  Landmarks all = voxel_landmarks(*field_), fine;
+  constexpr std::uint32_t kLeftOut = 0xffffffffu;
+  std::vector<std::uint32_t> numbers(all.points.size(), kLeftOut);
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    const Point3 p = to_world_(all.points[i]);
+    if (spacing(p) > voxel) continue;
+    numbers[i] = static_cast<std::uint32_t>(fine.points.size());
+    fine.points.push_back(p);
+  }
+  for (const auto& [a, b] : all.links) {
+    if (numbers[a] != kLeftOut && numbers[b] != kLeftOut) fine.links.push_back({numbers[a], numbers[b]});
+  }
+  return fine;
+}
 
 bool IsosurfaceOracle::clip(Point3& a, Point3& b) const {
   double enter = 0, leave = 1;

@@ -1,10 +1,10 @@
 #include "oracle/poisson_thinning.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <unordered_map>
 
-#include "core/hash.h"
+#include "core/flat_hash.h"
 
 namespace delvox {
 namespace {
@@ -30,17 +30,14 @@ class OctaveGrid {
   }
 
   void add(const Point3& p, double spacing) {
-    entries_.push_back({p, spacing, kEnd});
-    const auto [place, fresh] = first_.try_emplace(key(cube(p)), static_cast<std::uint32_t>(entries_.size() - 1));
-    if (!fresh) {
-      entries_.back().next = place->second;
-      place->second = static_cast<std::uint32_t>(entries_.size() - 1);
-    }
+    std::uint32_t& first = first_[key(cube(p))];
+    entries_.push_back({p, spacing, first});
+    first = static_cast<std::uint32_t>(entries_.size() - 1);
   }
 
  private:
   using Cube = std::array<std::int64_t, 3>;
-  static constexpr std::uint32_t kEnd = 0xffffffffu;
+  static constexpr std::uint32_t kEnd = FlatHash::kAbsent;
   struct Entry {
     Point3 point;
     double spacing;
@@ -53,12 +50,11 @@ class OctaveGrid {
   }
   // Cubes with equal keys share a list; distances are always tested, so that costs time only.
   static std::uint64_t key(const Cube& c) {
-    return mix_hash(static_cast<std::uint64_t>(c[0]) ^
-                    mix_hash(static_cast<std::uint64_t>(c[1]) ^ mix_hash(static_cast<std::uint64_t>(c[2]))));
+    const auto part = [](std::int64_t i) { return static_cast<std::uint64_t>(i) & 0x1fffff; };
+    return part(c[0]) | part(c[1]) << 21 | part(c[2]) << 42;
   }
   bool near_in(const Cube& c, const Point3& p, double spacing) const {
-    const auto place = first_.find(key(c));
-    for (std::uint32_t e = place == first_.end() ? kEnd : place->second; e != kEnd; e = entries_[e].next) {
+    for (std::uint32_t e = first_.find(key(c)); e != kEnd; e = entries_[e].next) {
       const double reach = std::min(spacing, entries_[e].spacing);
       if (squared_distance(entries_[e].point, p) < reach * reach) return true;
     }
@@ -66,7 +62,7 @@ class OctaveGrid {
   }
 
   double width_;
-  std::unordered_map<std::uint64_t, std::uint32_t> first_;
+  FlatHash first_;
   std::vector<Entry> entries_;
 };
 

@@ -77,7 +77,7 @@ class SeedMaker {
       const GridCrossing& c = found_.crossings[index];
       const double spacing = wanted_spacing(c, to_world_(c.point()));
       const bool speck = extents_[c.component].crossings <= kFewCrossings;
-      const double per_voxel = voxel_ / (0.6 * spacing);
+      const double per_voxel = voxel_ / (0.9 * spacing);
       const int copies = speck ? 1 : std::clamp(static_cast<int>(std::ceil(per_voxel * per_voxel)), 1, 64);
       for (std::uint32_t copy = 0; copy < static_cast<std::uint32_t>(copies); ++copy) {
         Candidate candidate{index, copy, c.point(), false, spacing, hash_edge(c, copy)};

@@ -50,8 +50,7 @@ void smooth_rows(DenseGrid& grid, const std::vector<double>& weights) {
   });
 }
 
-/// Smooths `lines` samples at once along the direction in which neighbours are `stride` apart: `source` and `target`
-/// are `count` rows of `width` samples each.
+/// Smooths across rows: `source` and `target` are `count` rows of `width` samples, `stride` apart.
 void smooth_across_rows(const float* source, float* target, std::size_t stride, int count, int width,
                         const std::vector<double>& weights) {
   const int radius = static_cast<int>(weights.size()) - 1;

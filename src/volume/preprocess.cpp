@@ -43,8 +43,9 @@ Volume crop(const Volume& volume, const IndexBox& box) {
     begin[axis] = std::max(box.begin[axis], 0);
     const int end = std::min(box.end[axis], volume.dims()[axis]);
     if (begin[axis] >= end) {
-      throw NothingToMesh("crop: nothing is left along axis " + std::string(1, "xyz"[axis]) + ", which has voxels 0 to " +
-                          std::to_string(volume.dims()[axis] - 1) + "; choose a range inside");
+      throw NothingToMesh("crop: nothing is left along axis " + std::string(1, "xyz"[axis]) +
+                          ", which has voxels 0 to " + std::to_string(volume.dims()[axis] - 1) +
+                          "; choose a range inside");
     }
     size[axis] = end - begin[axis];
     origin[axis] = begin[axis];
@@ -99,7 +100,7 @@ Volume resample(const Volume& volume, const ResampleOptions& options) {
   constexpr double kRounding = 1e-6;  // of a voxel: 64 voxels of 0.1 mm are 16 of 0.4, not 17
   const double spacing_mm = options.spacing_mm;
   if (!(spacing_mm > 0) || !std::isfinite(spacing_mm)) {
-    throw OptionError("resample: spacing " + format(spacing_mm) + " mm must be positive");
+    throw OptionError("resample: spacing " + format(spacing_mm) + " mm must be positive; try the smallest voxel edge");
   }
   VolumeHeader header = volume.header();
   const Vector3 spacing = header.spacing();
@@ -111,7 +112,8 @@ Volume resample(const Volume& volume, const ResampleOptions& options) {
     const double wanted = std::max(1.0, std::ceil(n * old / spacing_mm - kRounding));
     voxels *= wanted;
     if (voxels > kMaxVoxels) {
-      throw OptionError("resample: " + format(spacing_mm) + " mm would make more than 2^31 voxels; choose a larger one");
+      throw OptionError("resample: " + format(spacing_mm) +
+                        " mm would make more than 2^31 voxels; choose a larger one");
     }
     dims[axis] = static_cast<int>(wanted);
     step[axis] = spacing_mm / old;

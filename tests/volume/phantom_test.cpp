@@ -292,7 +292,8 @@ TEST(Phantom, RampIsExactInFloat) {
   const Volume volume = make_phantom("ramp");
   const PhantomTruth truth = phantom_truth("ramp", phantom_defaults("ramp"));
   for (int i = 0; i < 64; ++i) {
-    EXPECT_EQ(volume.value(i, 63 - i, i / 2), truth.value(volume.header().index_to_world({1.0 * i, 63.0 - i, 1.0 * (i / 2)})));
+    const Point3 world = volume.header().index_to_world({1.0 * i, 63.0 - i, 1.0 * (i / 2)});
+    EXPECT_EQ(volume.value(i, 63 - i, i / 2), truth.value(world));
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -18,6 +19,14 @@ struct Seeds {
 /// Wanted distance of surface points at a place, mm.
 using Spacing = std::function<double(const Point3&)>;
 
+/// A skeleton of a domain and of its outside: points, and straight links between points of one label that do not leave
+/// it. A mesh whose tets carry the labels of the points in them, and whose pieces are joined as the links say, has the
+/// pieces, gaps, necks and tunnels of the domain.
+struct Landmarks {
+  std::vector<Point3> points;
+  std::vector<std::array<std::uint32_t, 2>> links;
+};
+
 /// What the meshers ask of a domain, whatever it is made of: voxels, formulas, polygon surfaces.
 /// An edge is bipolar if the labels of its two ends differ (book, 14.1.3); labels are constant on each side of the
 /// surface. Queries are const but need not be thread-safe: clone() one oracle per thread.
@@ -35,6 +44,11 @@ class Oracle {
   virtual std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const = 0;
   /// Points on the surface at about the given spacing (sparse subsets of it may be dropped, components never).
   virtual Seeds seeds(const Spacing& spacing) const = 0;
+  /// Landmarks that a mesh as fine as `spacing` can be held to; none if the domain knows none.
+  virtual Landmarks landmarks(const Spacing& spacing) const {
+    (void)spacing;
+    return {};
+  }
   /// An independent oracle of the same domain.
   virtual std::unique_ptr<Oracle> clone() const = 0;
 };

@@ -27,11 +27,11 @@ Histogram make_histogram(std::span<const float> samples, int bins);
 /// if the samples had been sorted. pre: samples finite. Throws OptionError: a percentile outside 0 to 100, no samples.
 std::vector<double> percentiles(std::span<const float> samples, std::span<const double> percents);
 
-/// Otsu's thresholds (IEEE SMC 9, 1979) that part the samples into `classes` classes of least variance within: classes -
-/// 1 values in ascending order, as isovalues. Exact optimum over bins: one bin per integer if all samples are integers
-/// that span at most 65536, else 65536 bins of equal width. A threshold lies midway between the neighbouring occupied
-/// bins of two classes, so integer and label volumes have no sample on it. Empty if there are fewer distinct values
-/// than classes. pre: samples finite. Throws OptionError: classes below 2, no samples.
+/// Otsu's thresholds (IEEE SMC 9, 1979), which part the samples into `classes` classes of least variance within:
+/// (classes - 1) values in ascending order, as isovalues. Exact optimum over bins: one bin per integer if all samples
+/// are integers that span at most 65536, else 65536 bins of equal width. A threshold lies midway between the
+/// neighbouring occupied bins of two classes, so integer and label volumes have no sample on it. Empty if there are
+/// fewer distinct values than classes. pre: samples finite. Throws OptionError: classes below 2, no samples.
 std::vector<double> otsu_isovalues(std::span<const float> samples, int classes);
 
 /// An isovalue and how it came about.

@@ -7,8 +7,8 @@
 
 namespace delvox {
 
-// What may be done to a volume before meshing. Every function returns a new volume whose samples stay where they were in
-// the world: only the affine tells where, so it changes with the grid. Deterministic, whatever the number of threads.
+// What may be done to a volume before meshing. Every function returns a new volume whose samples stay where they were
+// in the world: only the affine tells where, so it changes with the grid. Same result for any number of threads.
 
 /// Voxels [begin, end) along i, j, k.
 struct IndexBox {
@@ -21,8 +21,8 @@ struct IndexBox {
 /// Throws NothingToMesh: nothing is left.
 Volume crop(const Volume& volume, const IndexBox& box);
 
-/// The smallest index box with all voxels whose centers lie in a world box (mm, the volume's frame) and in the image.
-/// On an oblique image it holds more than the world box: it must be a box of indices. Empty if they do not meet.
+/// The smallest index box around a world box (mm, the volume's frame) cut with the image: all voxels whose centers lie
+/// in the world box, on an oblique image also others. Empty if they do not meet. pre: the world box is finite or empty.
 IndexBox index_box(const Volume& volume, const Box3& world);
 
 /// What `--crop` takes: "x0:x1,y0:y1,z0:z1", voxel indices, half open; with the suffix "mm" world coordinates, closed.
@@ -34,9 +34,9 @@ struct SmoothOptions {
   double sigma_mm = 0;  ///< standard deviation of the Gaussian; 0 leaves the volume as it is
 };
 
-/// Gaussian smoothing along each grid axis with sigma / spacing voxels, truncated at 4 sigma, the kernel normalised, edge
-/// samples repeated outside (scipy.ndimage.gaussian_filter, mode "nearest"). A sheared affine is treated as if its axes
-/// were orthogonal.
+/// Gaussian smoothing along each grid axis with sigma / spacing voxels, truncated at 4 sigma, the kernel normalised,
+/// edge samples repeated outside (as scipy.ndimage.gaussian_filter, mode "nearest"). A sheared affine is treated as if
+/// its axes were orthogonal.
 /// Throws OptionError: sigma negative, not finite, or beyond the extent of the image.
 Volume smooth(const Volume& volume, const SmoothOptions& options);
 
@@ -45,10 +45,11 @@ struct ResampleOptions {
   bool prefilter = true;  ///< smooth first along axes that get coarser
 };
 
-/// Trilinear interpolation on an isotropic grid with the same axis directions. The field of view (voxels with their full
-/// extent) is covered and keeps its middle, so the outermost voxels stick out by under half a new voxel; beyond the
-/// first and last voxel centers the edge samples are repeated. Along axes that get coarser, detail that the new grid
-/// cannot hold is smoothed away first: full width at half maximum sqrt(new^2 - old^2) (Cardoso et al., MICCAI 2015).
+/// Trilinear interpolation on an isotropic grid with the same axis directions. The field of view (voxels with their
+/// full extent) is covered and keeps its middle, so the outermost voxels stick out by under half a new voxel; beyond
+/// the first and last voxel centers the edge samples are repeated. Along axes that get coarser, detail that the new
+/// grid cannot hold is smoothed away first by a Gaussian whose full width at half maximum is sqrt(new^2 - old^2)
+/// (Cardoso et al., MICCAI 2015).
 /// Throws OptionError: spacing not positive and finite, more than 2^31 voxels.
 Volume resample(const Volume& volume, const ResampleOptions& options);
 

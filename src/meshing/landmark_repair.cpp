@@ -1,0 +1,103 @@
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "meshing/pieces.h"
+#include "meshing/refinement.h"
+
+namespace delvox {
+
+bool Refinement::repair_landmarks() {
+  if (landmarks_.points.empty()) return false;
+  bool inserted = false;
+  lost_landmarks_ = 0;
+  CellId hint = delaunay_.created().front();
+  std::vector<CellId> cells;
+  for (const Point3& landmark : landmarks_.points) {
+    if (!budget_left()) return inserted;
+    hint = delaunay_.locate(landmark, hint);
+    if (const auto p = crossing_beside(landmark, hint)) {
+      if (insert_for_landmark(*p, hint)) {
+        inserted = true;
+        hint = delaunay_.created().front();
+      }
+    }
+    cells.push_back(hint);
+  }
+  return inserted || repair_pieces(cells);
+}
+
+/// If the cell that holds the landmark has the other label: a point of the surface inside the cell's circumball, between
+/// the landmark and the circumcentre. Inserting it destroys the cell.
+std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId cell) const {
+  const Cell& data = delaunay_.cell(cell);
+  const Label label = oracle_.label(landmark);
+  if (label == data.label) return std::nullopt;
+  return delaunay_.dual_crossing(landmark, label, data.sphere.center, data.label);
+}
+
+bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
+  const double floor = surface_.min_ball_radius * surface_.min_ball_radius;
+  const Star& star = delaunay_.evaluate(p, hint);
+  for (const Star::Tet& tet : star.tets) {
+    for (VertexId vertex : tet.vertices) {
+      if (squared_distance(p, delaunay_.point(vertex)) > floor) continue;
+      ++lost_landmarks_;
+      lost_place_ = p;
+      return false;
+    }
+  }
+  if (!insert_surface_point(p, hint)) return false;
+  ++report_.topology_insertions;
+  return true;
+}
+
+/// With every landmark on its side: joins pieces that a link says are one, and splits balls of pieces without landmarks,
+/// which are not real. What to insert is found before anything is inserted, one point for each pair of pieces.
+bool Refinement::repair_pieces(const std::vector<CellId>& landmark_cells) {
+  const Pieces pieces = find_pieces(delaunay_, landmark_cells);
+  std::vector<Point3> points;
+  std::set<std::pair<std::uint32_t, std::uint32_t>> treated;
+  for (const auto& [a, b] : landmarks_.links) {
+    const std::uint32_t piece_a = pieces.of_cell[landmark_cells[a]], piece_b = pieces.of_cell[landmark_cells[b]];
+    if (piece_a == piece_b || !treated.insert(std::minmax(piece_a, piece_b)).second) continue;
+    const auto p = crossing_on_link(landmarks_.points[a], landmarks_.points[b], landmark_cells[a], pieces);
+    if (p) points.push_back(*p);
+  }
+  for (const SurfaceBall& ball : largest_balls(pieces)) {
+    if (ball.squared_radius > surface_.min_ball_radius * surface_.min_ball_radius) points.push_back(ball.center);
+  }
+  bool inserted = false;
+  for (const Point3& p : points) inserted |= insert_for_landmark(p, delaunay_.created().front());
+  return inserted;
+}
+
+/// Halves a link whose ends lie in different pieces until a point of it lies in a cell of the other label.
+std::optional<Point3> Refinement::crossing_on_link(Point3 a, Point3 b, CellId cell_a, const Pieces& pieces) const {
+  const std::uint32_t piece_a = pieces.of_cell[cell_a];
+  CellId hint = cell_a;
+  constexpr int kHalvings = 40;
+  for (int i = 0; i < kHalvings; ++i) {
+    const Point3 middle = midpoint(a, b);
+    hint = delaunay_.locate(middle, hint);
+    if (const auto p = crossing_beside(middle, hint)) return p;
+    (pieces.of_cell[hint] == piece_a ? a : b) = middle;
+  }
+  return std::nullopt;
+}
+
+std::vector<SurfaceBall> Refinement::largest_balls(const Pieces& pieces) const {
+  std::vector<SurfaceBall> largest(pieces.count - pieces.reached);
+  for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) {
+    const std::uint32_t piece = pieces.of_cell[cell];
+    if (piece == kNone || piece < pieces.reached) continue;
+    for (int i = 0; i < 4; ++i) {
+      const SurfaceBall* ball = delaunay_.ball({cell, i});
+      SurfaceBall& best = largest[piece - pieces.reached];
+      if (ball != nullptr && ball->squared_radius > best.squared_radius) best = *ball;
+    }
+  }
+  return largest;
+}
+
+}  // namespace delvox
