@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/crossing_triangles.h"
 #include "check/element_quality.h"
 #include "check/exact_orientation.h"
 #include "check/point_checks.h"
@@ -71,7 +72,10 @@ class MeshChecker {
     triangles_ = tets_ != nullptr ? std::span<const Triangle>(tet_topology_.boundary) : surface_->triangles;
     check_surface_topology();
     check_bounds();
-    if (options_.level == CheckLevel::kFull) check_voxels();
+    if (options_.level == CheckLevel::kFull) {
+      builder_.count("no crossing triangles", check::crossing_triangles(points_, triangles_));
+      check_voxels();
+    }
     return std::move(report_);
   }
 
