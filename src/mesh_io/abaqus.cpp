@@ -7,7 +7,7 @@
 
 #include "mesh_io/formats.h"
 #include "mesh_io/header_comment.h"
-#include "mesh_io/tag_map.h"
+#include "mesh_io/numbered_mesh.h"
 
 namespace delvox::mesh_io {
 namespace {
@@ -122,18 +122,12 @@ class Reader {
       }
     }
     finish_section();
-    add_elements();
+    numbered_.move_into(source_, mesh_);
     return std::move(mesh_);
   }
 
  private:
   enum class Section { kOther, kNodes, kElements };
-  struct Element {
-    std::int64_t id;
-    std::size_t nodes;  ///< where they begin in element_nodes_
-    ElementType type;
-    std::int64_t region;
-  };
 
   void begin_section(const Keyword& keyword) {
     finish_section();
@@ -191,32 +185,15 @@ class Reader {
       const std::string_view field = fields_[axis + 1];
       p[static_cast<int>(axis)] = field.empty() ? 0.0 : parse_real(source_, field);
     }
-    node_tags_.push_back(parse_integer(source_, fields_[0]));
-    mesh_.points.push_back(p);
+    numbered_.add_node(parse_integer(source_, fields_[0]), p);
   }
 
   /// Elements may run over several lines.
   void add_element_number(std::int64_t number) {
     pending_.push_back(number);
     if (pending_.size() < type_.nodes + 1) return;
-    elements_.push_back({pending_[0], element_nodes_.size(), type_, region_});
-    element_nodes_.insert(element_nodes_.end(), pending_.begin() + 1, pending_.end());
+    numbered_.add_element(pending_[0], type_.kind, std::span(pending_).subspan(1), region_);
     pending_.clear();
-  }
-
-  void add_elements() {
-    // Elements stand by region in our files: their numbers give back the order they had.
-    const auto by_id = [](const Element& a, const Element& b) { return a.id < b.id; };
-    if (!std::is_sorted(elements_.begin(), elements_.end(), by_id)) {
-      std::stable_sort(elements_.begin(), elements_.end(), by_id);
-    }
-    const TagMap index_of(source_, node_tags_, "nodes");
-    std::vector<std::int64_t> nodes;
-    for (const Element& element : elements_) {
-      nodes.clear();
-      for (std::size_t i = 0; i < element.type.nodes; ++i) nodes.push_back(index_of(element_nodes_[element.nodes + i]));
-      mesh_.add_cell(source_, element.type.kind, nodes, "element", element.region);
-    }
   }
 
   const Source& source_;
@@ -228,8 +205,8 @@ class Reader {
   std::int64_t region_ = 1;
   std::map<std::string, std::int64_t> region_names_;
   std::vector<std::string_view> fields_;
-  std::vector<std::int64_t> pending_, node_tags_, element_nodes_;
-  std::vector<Element> elements_;
+  std::vector<std::int64_t> pending_;  ///< number and nodes of the element being read
+  NumberedMesh numbered_;
 };
 
 }  // namespace

@@ -26,7 +26,14 @@ struct Format {
 
 constexpr Format kFormats[] = {
     {".vtu", "VTU", Holds::kTets, write_vtu, read_vtu},
+    {".vtk", "legacy VTK", Holds::kTets, write_legacy_vtk, read_legacy_vtk},
     {".stl", "STL", Holds::kSurfaces, write_stl, read_stl},
+    {".ply", "PLY", Holds::kSurfaces, write_ply, read_ply},
+    {".off", "OFF", Holds::kSurfaces, write_off, read_off},
+    {".obj", "OBJ", Holds::kSurfaces, write_obj, read_obj},
+    {".mesh", "MEDIT", Holds::kTetsAndTheirBoundary, write_medit, read_medit},
+    {".msh", "Gmsh MSH", Holds::kTetsAndTheirBoundary, write_gmsh41, read_gmsh},
+    {".msh2", "Gmsh MSH", Holds::kTetsAndTheirBoundary, write_gmsh22, read_gmsh},
     {".inp", "Abaqus INP", Holds::kTetsAndTheirBoundary, write_abaqus, read_abaqus},
 };
 

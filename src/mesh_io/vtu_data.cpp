@@ -2,12 +2,11 @@
 
 #include <zlib.h>
 
-#include <algorithm>
 #include <array>
-#include <limits>
 #include <type_traits>
+#include <utility>
 
-#include "mesh_io/binary.h"
+#include "mesh_io/number_type.h"
 
 namespace delvox::mesh_io {
 namespace {
@@ -26,34 +25,17 @@ constexpr std::array<signed char, 256> make_base64_values() {
 }
 constexpr std::array<signed char, 256> kBase64Values = make_base64_values();
 
-/// Stored bytes as numbers of type T.
-template <class T, class Stored>
-std::vector<T> convert(const Source& source, const std::string& bytes, std::endian order) {
-  if (bytes.size() % sizeof(Stored) != 0) source.fail("an array ends within a number");
-  std::vector<T> result(bytes.size() / sizeof(Stored));
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    const Stored value = load<Stored>(bytes.data() + i * sizeof(Stored), order);
-    if constexpr (std::is_integral_v<T> && std::is_floating_point_v<Stored>) {
-      if (!(value > -9e15 && value < 9e15)) source.fail("an array of whole numbers holds others");
-    }
-    result[i] = static_cast<T>(value);
+NumberType number_type(const Source& source, std::string_view name) {
+  constexpr std::pair<std::string_view, NumberType> kTypes[] = {
+      {"Float64", NumberType::kFloat64}, {"Float32", NumberType::kFloat32}, {"Int64", NumberType::kInt64},
+      {"UInt64", NumberType::kUInt64},   {"Int32", NumberType::kInt32},     {"UInt32", NumberType::kUInt32},
+      {"Int16", NumberType::kInt16},     {"UInt16", NumberType::kUInt16},   {"Int8", NumberType::kInt8},
+      {"UInt8", NumberType::kUInt8},
+  };
+  for (const auto& [type_name, type] : kTypes) {
+    if (name == type_name) return type;
   }
-  return result;
-}
-
-template <class T>
-std::vector<T> convert(const Source& source, const std::string& bytes, std::endian order, std::string_view type) {
-  if (type == "Float64") return convert<T, double>(source, bytes, order);
-  if (type == "Float32") return convert<T, float>(source, bytes, order);
-  if (type == "Int64") return convert<T, std::int64_t>(source, bytes, order);
-  if (type == "UInt64") return convert<T, std::uint64_t>(source, bytes, order);
-  if (type == "Int32") return convert<T, std::int32_t>(source, bytes, order);
-  if (type == "UInt32") return convert<T, std::uint32_t>(source, bytes, order);
-  if (type == "Int16") return convert<T, std::int16_t>(source, bytes, order);
-  if (type == "UInt16") return convert<T, std::uint16_t>(source, bytes, order);
-  if (type == "Int8") return convert<T, std::int8_t>(source, bytes, order);
-  if (type == "UInt8") return convert<T, std::uint8_t>(source, bytes, order);
-  source.fail("an array has the unknown type " + in_quotes(type));
+  source.fail("an array has the unknown type " + in_quotes(name));
 }
 
 }  // namespace
@@ -173,7 +155,7 @@ template <class T>
 std::vector<T> VtuArrays::numbers(const XmlNode& array) const {
   const std::string_view format = array.attribute("format", "ascii");
   if (format == "binary" || format == "appended") {
-    return convert<T>(source_, binary(array), order_, array.attribute("type"));
+    return load_all_as<T>(source_, binary(array), number_type(source_, array.attribute("type")), order_);
   }
   if (format != "ascii") source_.fail("an array has the unknown format " + in_quotes(format));
   std::vector<T> result;

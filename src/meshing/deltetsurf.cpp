@@ -19,20 +19,20 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
 
   budget.begin_stage("seeds");
   refinement.insert_seeds();  // step 1
-  const auto refine_surface = [&] {
-    do {
-      budget.begin_stage("surface");
-      refinement.refine_surface();  // steps 2 and 3, Quality
-      budget.begin_stage("topology");
-    } while (refinement.repair_topology());  // step 5
+  const auto repair_topology = [&] {
+    budget.begin_stage("topology");
+    return refinement.repair_topology() || refinement.repair_landmarks();  // step 5
   };
-  refine_surface();
+  do {
+    budget.begin_stage("surface");
+    refinement.refine_surface();  // steps 2 and 3, Quality
+  } while (repair_topology());
   refinement.watch_tets(options.tets);
   do {
     budget.begin_stage("tets");
+    refinement.refine_surface();
     refinement.refine_tets();  // step 7, returning to steps 2 and 3 after each surface insertion
-    budget.begin_stage("topology");
-  } while (refinement.repair_topology() && (refine_surface(), true));
+  } while (repair_topology());
   budget.end_stage();
 
   refinement.report_unmet();

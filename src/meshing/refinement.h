@@ -27,6 +27,10 @@ class Refinement {
   /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
   bool repair_topology();
 
+  /// One insertion for each landmark of the oracle that lies on the wrong side of the mesh. True if anything was
+  /// inserted. Not in the book: trilinear surfaces have necks and gaps of any width, which no size field foresees.
+  bool repair_landmarks();
+
   /// From now on tetrahedra that break `criteria` are kept in a stack.
   void watch_tets(const TetCriteria& criteria);
   /// Step 7: splits the tetrahedra on the stack until it is empty, the surface kept refined throughout.
@@ -58,6 +62,7 @@ class Refinement {
   void mark_dirty(FacetId facet);
   void commit(VertexKind kind);
   bool repair_umbrella(VertexId vertex);
+  bool repair_landmark(const Point3& landmark, CellId& hint);
   bool budget_left() { return budget_.go_on(delaunay_.vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
 
   // Tetrahedra (tet_refinement.cpp)
@@ -78,9 +83,10 @@ class Refinement {
   std::vector<WaitingTet> tets_;      // last in, first out
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
+  std::vector<Point3> landmarks_;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
-  std::size_t too_deviant_ = 0, stuck_ = 0;
-  Point3 deviant_place_, stuck_place_;
+  std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
+  Point3 deviant_place_, stuck_place_, lost_place_;
 };
 
 }  // namespace delvox

@@ -17,6 +17,7 @@ void Refinement::insert_seeds() {
   const Seeds seeds = oracle_.seeds([this](const Point3& p) { return surface_.size(p); });
   if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
   report_.components = seeds.components;
+  landmarks_ = oracle_.landmarks([this](const Point3& p) { return surface_.size(p); });
   delaunay_.insert_seeds(seeds.points);
   enqueue_created();
 }
@@ -155,6 +156,37 @@ bool Refinement::repair_umbrella(VertexId vertex) {
   return true;
 }
 
+bool Refinement::repair_landmarks() {
+  bool inserted = false;
+  lost_landmarks_ = 0;
+  CellId hint = delaunay_.created().front();
+  for (const Point3& landmark : landmarks_) {
+    if (!budget_left()) return inserted;
+    inserted |= repair_landmark(landmark, hint);
+  }
+  return inserted;
+}
+
+/// A landmark and the Voronoi vertex of its tet lie in the tet's circumball: the crossing between them destroys the tet.
+bool Refinement::repair_landmark(const Point3& landmark, CellId& hint) {
+  hint = delaunay_.locate(landmark, hint);
+  const Cell& cell = delaunay_.cell(hint);
+  const Label label = oracle_.label(landmark);
+  if (label == cell.label) return false;
+  const Point3 p = delaunay_.dual_crossing(landmark, label, cell.sphere.center, cell.label);
+  const double floor = surface_.min_ball_radius * surface_.min_ball_radius;
+  for (VertexId vertex : delaunay_.vertices(hint)) {
+    if (squared_distance(p, delaunay_.point(vertex)) > floor) continue;
+    ++lost_landmarks_;
+    lost_place_ = landmark;
+    return false;
+  }
+  if (!insert_surface_point(p, hint)) return false;
+  hint = delaunay_.created().front();
+  ++report_.topology_insertions;
+  return true;
+}
+
 void Refinement::report_unmet() {
   const auto tell = [this](const char* criterion, std::size_t count, const Point3& where, const char* reason,
                            bool breaks_promise) {
@@ -171,6 +203,8 @@ void Refinement::report_unmet() {
   }
   tell("topology", broken, where, "the triangles at a vertex form no disk at the smallest ball radius", true);
   tell("deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false);
+  tell("landmark", lost_landmarks_, lost_place_, "a neck, gap or speck of the voxels is below the smallest ball radius",
+       false);
   tell("refinement", stuck_, stuck_place_, "a new point coincides with a vertex", true);
 }
 

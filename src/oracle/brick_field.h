@@ -16,6 +16,9 @@ class BrickField {
  public:
   static constexpr int kBrick = 8, kBlock = kBrick + 1, kBlockSize = kBlock * kBlock * kBlock;
 
+  /// Steps along i, j, k inside a block.
+  static constexpr std::array<int, 3> kBlockStride{1, kBlock, kBlock * kBlock};
+
   BrickField(const Volume& volume, const LevelSet& level_set);
 
   /// Number of samples along each axis, padding included.
@@ -31,6 +34,14 @@ class BrickField {
   const float* block(const std::array<int, 3>& brick) const {
     return blocks_.data() + static_cast<std::size_t>(table_[brick_index(brick)]) * kBlockSize;
   }
+
+  /// Calls visit(brick) for each mixed brick, first index fastest.
+  template <class Visit>
+  void for_each_mixed_brick(const Visit& visit) const;
+  /// Calls visit(sample, address) for the samples of all mixed bricks, each once: those shared by bricks belong to the
+  /// upper one. From the address the samples one step up along each axis can be reached by kBlockStride.
+  template <class Visit>
+  void for_each_mixed_sample(const Visit& visit) const;
 
   /// The eight samples around a cell, bit 0 of the index along x, bit 1 along y, bit 2 along z; false if the cell lies
   /// in a pure brick (then `inside` tells which).
@@ -68,6 +79,34 @@ class BrickField {
   std::vector<std::int32_t> table_;  // per brick: number of its block, or one of the constants
   std::vector<float> blocks_;
 };
+
+template <class Visit>
+void BrickField::for_each_mixed_brick(const Visit& visit) const {
+  std::array<int, 3> brick;
+  for (brick[2] = 0; brick[2] < brick_counts_[2]; ++brick[2]) {
+    for (brick[1] = 0; brick[1] < brick_counts_[1]; ++brick[1]) {
+      for (brick[0] = 0; brick[0] < brick_counts_[0]; ++brick[0]) {
+        if (state(brick) == BrickState::kMixed) visit(brick);
+      }
+    }
+  }
+}
+
+template <class Visit>
+void BrickField::for_each_mixed_sample(const Visit& visit) const {
+  for_each_mixed_brick([&](const std::array<int, 3>& brick) {
+    const float* samples = block(brick);
+    for (int k = 0; k < kBrick; ++k) {
+      for (int j = 0; j < kBrick; ++j) {
+        for (int i = 0; i < kBrick; ++i) {
+          const std::array<int, 3> sample{brick[0] * kBrick + i, brick[1] * kBrick + j, brick[2] * kBrick + k};
+          if (sample[0] >= size_[0] || sample[1] >= size_[1] || sample[2] >= size_[2]) continue;
+          visit(sample, samples + (k * kBlock + j) * kBlock + i);
+        }
+      }
+    }
+  });
+}
 
 /// Trilinear interpolation of eight samples (bit 0 of the index along x) at (x, y, z) in [0, 1]^3.
 template <class Samples>

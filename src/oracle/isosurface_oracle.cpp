@@ -6,6 +6,7 @@
 #include "delvox/core/errors.h"
 #include "oracle/bracketed_root.h"
 #include "oracle/brick_field.h"
+#include "oracle/voxel_landmarks.h"
 #include "oracle/voxel_seeds.h"
 
 namespace delvox {
@@ -51,6 +52,17 @@ class IsosurfaceOracle final : public SmoothOracle {
     Seeds seeds = voxel_seeds(*field_, to_world_, spacing);
     for (Point3& p : seeds.points) p = to_world_(p);
     return seeds;
+  }
+
+  std::vector<Point3> landmarks(const Spacing& spacing) const override {
+    // A mesh coarser than the voxels cannot follow every voxel; nor is it asked to.
+    const double voxel = std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
+    std::vector<Point3> points;
+    for (const Point3& u : voxel_landmarks(*field_)) {
+      const Point3 p = to_world_(u);
+      if (spacing(p) <= voxel) points.push_back(p);
+    }
+    return points;
   }
 
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<IsosurfaceOracle>(*this); }

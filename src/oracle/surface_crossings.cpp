@@ -9,44 +9,17 @@ namespace delvox {
 namespace {
 
 using Index3 = std::array<int, 3>;
-constexpr int kBlock = BrickField::kBlock;
-constexpr std::array<int, 3> kStride{1, kBlock, kBlock * kBlock};
-
-/// Visits the base samples of all mixed bricks: the samples below each cell of the brick, padded grid included.
-template <class Visit>
-void for_each_base_sample(const BrickField& field, const Visit& visit) {
-  const Index3& counts = field.brick_counts();
-  const Index3& size = field.size();
-  Index3 brick;
-  for (brick[2] = 0; brick[2] < counts[2]; ++brick[2]) {
-    for (brick[1] = 0; brick[1] < counts[1]; ++brick[1]) {
-      for (brick[0] = 0; brick[0] < counts[0]; ++brick[0]) {
-        if (field.state(brick) != BrickField::BrickState::kMixed) continue;
-        const float* block = field.block(brick);
-        for (int k = 0; k < BrickField::kBrick; ++k) {
-          for (int j = 0; j < BrickField::kBrick; ++j) {
-            for (int i = 0; i < BrickField::kBrick; ++i) {
-              const Index3 sample{brick[0] * BrickField::kBrick + i, brick[1] * BrickField::kBrick + j,
-                                  brick[2] * BrickField::kBrick + k};
-              if (sample[0] >= size[0] || sample[1] >= size[1] || sample[2] >= size[2]) continue;
-              visit(sample, block + (k * kBlock + j) * kBlock + i);
-            }
-          }
-        }
-      }
-    }
-  }
-}
+constexpr auto& kStride = BrickField::kBlockStride;
 
 class CrossingFinder {
  public:
   explicit CrossingFinder(const BrickField& field) : field_(field), level_(field.level()) {}
 
   GridCrossings run() {
-    for_each_base_sample(field_, [&](const Index3& s, const float* p) { add_edges(s, p); });
+    field_.for_each_mixed_sample([&](const Index3& s, const float* p) { add_edges(s, p); });
     parent_.resize(result_.crossings.size());
     std::iota(parent_.begin(), parent_.end(), 0u);
-    for_each_base_sample(field_, [&](const Index3& s, const float* p) { join_on_faces(s, p); });
+    field_.for_each_mixed_sample([&](const Index3& s, const float* p) { join_on_faces(s, p); });
     number_components();
     return std::move(result_);
   }

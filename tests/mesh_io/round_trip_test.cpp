@@ -139,7 +139,8 @@ TEST_P(EveryFormat, ExtensionMayBeInCapitals) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat,
-                         ::testing::Values(".vtu", ".stl", ".inp"),
+                         ::testing::Values(".vtu", ".vtk", ".stl", ".ply", ".off", ".obj", ".mesh", ".msh", ".msh2",
+                                           ".inp"),
                          [](const auto& extension) { return std::string(extension.param).substr(1); });
 
 TEST(WriteMesh, NamesTheFormatsWhenTheExtensionIsUnknown) {

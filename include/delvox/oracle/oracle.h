@@ -35,6 +35,12 @@ class Oracle {
   virtual std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const = 0;
   /// Points on the surface at about the given spacing (sparse subsets of it may be dropped, components never).
   virtual Seeds seeds(const Spacing& spacing) const = 0;
+  /// Points that a mesh as fine as `spacing` must have on the right side for its topology to be the domain's: a tet
+  /// that contains one should carry its label. Empty if the domain knows none, or none that matter at that spacing.
+  virtual std::vector<Point3> landmarks(const Spacing& spacing) const {
+    (void)spacing;
+    return {};
+  }
   /// An independent oracle of the same domain.
   virtual std::unique_ptr<Oracle> clone() const = 0;
 };

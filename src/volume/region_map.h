@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "delvox/volume/voxel_topology.h"
+
+namespace delvox {
+
+/// The padded grid as runs of equal sign along i, joined into regions by the trilinear function. Every row begins in
+/// the padding, so its runs alternate: outside, inside, outside, ...
+class RegionMap {
+ public:
+  RegionMap(const Volume& volume, const LevelSet& level_set);
+
+  struct Run {
+    std::array<int, 3> begin;  ///< voxel indices, -1 in the padding
+    int length;
+    bool inside;
+    std::uint32_t region;      ///< see regions()
+  };
+  /// Calls visit(Run) for every run, row by row.
+  template <class Visit>
+  void for_each_run(const Visit& visit) const;
+
+  const VoxelRegions& result() const { return result_; }
+
+ private:
+  struct Slice;
+  void add_slice(const float* samples, int k, Slice& slice);
+  void join_rows(std::size_t row_a, std::size_t row_b);
+  void add_cells(const Slice& lower, const Slice& upper);
+  void add_mixed_cell(const Slice& lower, const Slice& upper, std::size_t at, unsigned mask);
+  std::uint32_t root(std::uint32_t run);
+  void join(std::uint32_t a, std::uint32_t b);
+  void number_regions(double voxel_volume);
+  void find_parents();
+
+  double level_;
+  int nx_, ny_, nz_;  // of the padded grid
+  std::vector<std::size_t> row_begin_;   // per row, its first run; one more at the end
+  std::vector<std::int32_t> run_start_;
+  std::vector<std::uint32_t> joined_;    // union-find, later the region
+  std::vector<double> correction_;       // per run: its volume in voxels minus its length
+  long weight_ = 0;                      // 8 * Euler characteristic of the inside with compact support
+  VoxelRegions result_;
+};
+
+template <class Visit>
+void RegionMap::for_each_run(const Visit& visit) const {
+  for (std::size_t row = 0; row + 1 < row_begin_.size(); ++row) {
+    const int j = static_cast<int>(row % ny_) - 1, k = static_cast<int>(row / ny_) - 1;
+    for (std::size_t run = row_begin_[row]; run < row_begin_[row + 1]; ++run) {
+      const int end = run + 1 < row_begin_[row + 1] ? run_start_[run + 1] : nx_;
+      visit(Run{{run_start_[run] - 1, j, k}, end - run_start_[run], (run - row_begin_[row]) % 2 == 1, joined_[run]});
+    }
+  }
+}
+
+}  // namespace delvox
