@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "check/crossing_triangles.h"
 #include "check/element_quality.h"
 #include "check/exact_orientation.h"
 #include "check/point_checks.h"
 #include "check/report_builder.h"
 #include "check/surface_topology.h"
 #include "check/tet_topology.h"
+#include "check/voxel_checks.h"
 
 namespace delvox {
 namespace {
@@ -70,6 +72,10 @@ class MeshChecker {
     triangles_ = tets_ != nullptr ? std::span<const Triangle>(tet_topology_.boundary) : surface_->triangles;
     check_surface_topology();
     check_bounds();
+    if (options_.level == CheckLevel::kFull) {
+      builder_.count("no crossing triangles", check::crossing_triangles(points_, triangles_));
+      check_voxels();
+    }
     return std::move(report_);
   }
 
@@ -173,6 +179,18 @@ class MeshChecker {
     report_.statistics.dihedral_degrees = quality.dihedrals;
     report_.statistics.radius_edge = quality.ratios;
     report_.statistics.edge_mm = quality.edges;
+  }
+
+  void check_voxels() {
+    if (options_.volume == nullptr) return;
+    if (!options_.isosurface && !info_.isovalue) {
+      builder_.not_applicable("nodes on the isosurface", "a volume, but no isovalue: neither given nor in the mesh");
+      return;
+    }
+    const Isosurface surface = options_.isosurface.value_or(Isosurface{info_.isovalue.value_or(0), info_.below});
+    const check::SurfaceOfMesh mesh{points_, triangles_, topology_, report_.statistics.volume_mm3, bounds_, precision_,
+                                    options_.open_border.value_or(info_.open_border), info_.isovalue.has_value()};
+    check::check_against_voxels(mesh, surface, options_, builder_, report_);
   }
 
   const TetMesh* tets_;

@@ -39,18 +39,20 @@ void write_tet_cells(const MeshView& mesh, Out& out) {
 }
 
 NumberType number_type(const Source& source, std::string_view name) {
+  // vtkIdType is stored as int here, whatever its size in memory.
   constexpr std::pair<std::string_view, NumberType> kTypes[] = {
-      {"DOUBLE", NumberType::kFloat64},       {"FLOAT", NumberType::kFloat32},
-      {"INT", NumberType::kInt32},            {"UNSIGNED_INT", NumberType::kUInt32},
-      {"LONG", NumberType::kInt64},           {"UNSIGNED_LONG", NumberType::kUInt64},
-      {"VTKTYPEINT64", NumberType::kInt64},   {"VTKTYPEUINT64", NumberType::kUInt64},
-      {"VTKTYPEINT32", NumberType::kInt32},   {"VTKTYPEUINT32", NumberType::kUInt32},
-      {"VTKIDTYPE", NumberType::kInt32},  // as VTK stores it here, whatever its size in memory
-      {"SHORT", NumberType::kInt16},          {"UNSIGNED_SHORT", NumberType::kUInt16},
-      {"CHAR", NumberType::kInt8},            {"UNSIGNED_CHAR", NumberType::kUInt8},
+      {"DOUBLE", NumberType::kFloat64}, {"FLOAT", NumberType::kFloat32},        {"INT", NumberType::kInt32},
+      {"LONG", NumberType::kInt64},     {"UNSIGNED_LONG", NumberType::kUInt64}, {"UNSIGNED_INT", NumberType::kUInt32},
+      {"SHORT", NumberType::kInt16},    {"UNSIGNED_SHORT", NumberType::kUInt16}, {"VTKIDTYPE", NumberType::kInt32},
+      {"CHAR", NumberType::kInt8},      {"UNSIGNED_CHAR", NumberType::kUInt8},  {"INT8", NumberType::kInt8},
+      {"UINT8", NumberType::kUInt8},    {"INT16", NumberType::kInt16},          {"UINT16", NumberType::kUInt16},
+      {"INT32", NumberType::kInt32},    {"UINT32", NumberType::kUInt32},        {"INT64", NumberType::kInt64},
+      {"UINT64", NumberType::kUInt64},
   };
+  std::string capitals = upper_case(name);
+  if (capitals.starts_with("VTKTYPE")) capitals.erase(0, 7);
   for (const auto& [type_name, type] : kTypes) {
-    if (upper_case(name) == type_name) return type;
+    if (capitals == type_name) return type;
   }
   source.fail("has numbers of the unknown type " + in_quotes(name));
 }

@@ -35,12 +35,25 @@ bool is_ear(std::span<const std::uint32_t> corners, std::span<const Point3> poin
   return true;
 }
 
-/// Every corner turns the same way, and every triangle of the fan too (which a star-shaped pentagram fails).
+/// Area without direction: of a bow tie, where the halves cancel. Corners all in one line have neither.
+bool cancels_out(std::span<const std::uint32_t> corners, std::span<const Point3> points, const Vector3& normal) {
+  const std::size_t n = corners.size();
+  double turned = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Point3& b = points[corners[(i + 1) % n]];
+    turned += norm(cross(b - points[corners[i]], points[corners[(i + 2) % n]] - b));
+  }
+  return norm(normal) < 1e-12 * turned;
+}
+
+/// Every corner turns the same way, and every triangle of the fan too (which a pentagram fails). Corners in line with
+/// their neighbours may seem to turn the other way by rounding.
 bool is_convex(std::span<const std::uint32_t> corners, std::span<const Point3> points, const Vector3& normal) {
   const std::size_t n = corners.size();
+  const double least = -1e-12 * squared_norm(normal);
   for (std::size_t i = 0; i < n; ++i) {
     const Point3 &a = points[corners[i]], &b = points[corners[(i + 1) % n]], &c = points[corners[(i + 2) % n]];
-    if (turn(a, b, c, normal) < 0 || turn(points[corners[0]], a, b, normal) < 0) return false;
+    if (turn(a, b, c, normal) < least || turn(points[corners[0]], a, b, normal) < least) return false;
   }
   return true;
 }
@@ -52,6 +65,7 @@ std::optional<std::vector<Triangle>> triangulate_polygon(std::span<const std::ui
   if (corners.size() < 3) return std::nullopt;
   std::vector<Triangle> result;
   const Vector3 normal = normal_of(corners, points);
+  if (corners.size() > 3 && cancels_out(corners, points, normal)) return std::nullopt;
   if (corners.size() == 3 || is_convex(corners, points, normal)) {
     for (std::size_t i = 1; i + 1 < corners.size(); ++i) result.push_back({corners[0], corners[i], corners[i + 1]});
     return result;

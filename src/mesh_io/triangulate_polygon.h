@@ -10,7 +10,7 @@
 namespace delvox::mesh_io {
 
 /// Cuts a polygon in space into triangles of the same orientation: a fan if it is convex, by ears if not.
-/// nullopt if it has fewer than 3 corners or no ear is left (it crosses itself) or it is too large to try.
+/// nullopt if it has fewer than 3 corners, crosses itself so that no ear is left, or is too large to try.
 std::optional<std::vector<Triangle>> triangulate_polygon(std::span<const std::uint32_t> corners,
                                                          std::span<const Point3> points);
 

@@ -282,6 +282,39 @@ TEST(CheckMesh, ShellsMustAlternate) {
   EXPECT_EQ(failures(hollow_twice), Names{"outward orientation"});
 }
 
+TEST(CheckMesh, CrossingSheetsAreNamed) {
+  SurfaceMesh overlapping = icosphere(2);
+  append(overlapping, icosphere(2, 1, {1.1, 0.2, 0.1}));
+  EXPECT_EQ(failures(overlapping).count("no crossing triangles"), 1u);
+  SurfaceMesh apart = icosphere(2);
+  append(apart, icosphere(2, 1, {2.1, 0.2, 0.1}));
+  EXPECT_EQ(failures(apart), Names{});
+  // A single node pulled through the opposite wall.
+  SurfaceMesh poked = icosphere(3);
+  poked.points[0] = -1.5 * poked.points[0];
+  EXPECT_EQ(failures(poked).count("no crossing triangles"), 1u);
+}
+
+TEST(CheckMesh, TriangleFoldedOntoItsNeighbourCrossesIt) {
+  SurfaceMesh folded;
+  folded.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.3, 0.3, 0}};
+  folded.triangles = {{0, 1, 2}, {1, 0, 3}};
+  EXPECT_EQ(failures(folded).count("no crossing triangles"), 1u);
+  folded.points[3] = {0.3, -0.3, 0};
+  EXPECT_EQ(failures(folded).count("no crossing triangles"), 0u);
+}
+
+TEST(CheckMesh, OverlappingTetsWithAGoodBoundaryEachAreNamed) {
+  TetMesh mesh = cube_mesh(2), other = cube_mesh(2, 1, {0.5, 0.6, 0.7});
+  for (Tet tet : other.tets) {
+    for (std::uint32_t& v : tet) v += 27;
+    mesh.tets.push_back(tet);
+  }
+  mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+  mesh.boundary = boundary_of(mesh.tets);
+  EXPECT_EQ(failures(mesh).count("no crossing triangles"), 1u);
+}
+
 TEST(CheckMesh, SliverBreaksTheDihedralBound) {
   TetMesh mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0.01}, {1, 1, 0}, {0, 1, 0.01}};

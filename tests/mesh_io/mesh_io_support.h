@@ -11,11 +11,13 @@
 
 namespace delvox::testing {
 
-/// A folder of its own that is gone with the object.
+/// A folder of its own that is gone with the object; in memory where that is to be had, for thousands of small files.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "delvox_mesh_io_XXXXXX").string();
+    const bool has_memory_disk = ::access("/dev/shm", W_OK | X_OK) == 0;
+    const std::filesystem::path parent = has_memory_disk ? "/dev/shm" : std::filesystem::temp_directory_path();
+    std::string name = (parent / "delvox_mesh_io_XXXXXX").string();
     path_ = ::mkdtemp(name.data());
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }

@@ -1,7 +1,8 @@
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
-#include <algorithm>
 #include <cmath>
+#include <csignal>
 
 #include "delvox/core/errors.h"
 #include "delvox/mesh_io/read_mesh.h"
@@ -154,6 +155,29 @@ TEST(WriteMesh, NamesTheFormatsWhenTheExtensionIsUnknown) {
   EXPECT_NO_THROW(check_mesh_extension("a.b/mesh.STL"));
 }
 
+TEST(WriteMesh, RefusesAPathThatIsAFolder) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "a.stl");
+  EXPECT_THROW(write_mesh(awkward_surface(), folder / "a.stl"), IoError);
+}
+
+TEST(WriteMesh, ReportsAFullDiskAndKeepsTheOldFile) {
+  const TemporaryFolder folder;
+  TetMesh mesh = awkward_tets();
+  for (const char* name : {"a.vtu", "a.vtk", "a.stl", "a.inp", "a.msh"}) {
+    testing::write_bytes(folder / name, "old");
+    // A limit on the size of files stands in for the disk.
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit before;
+    getrlimit(RLIMIT_FSIZE, &before);
+    const rlimit small{100, before.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+    EXPECT_THROW(write_mesh(mesh, folder / name), IoError);
+    setrlimit(RLIMIT_FSIZE, &before);
+    EXPECT_EQ(file_bytes(folder / name), "old");
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 5);
+}
 
 }  // namespace
 }  // namespace delvox

@@ -23,7 +23,8 @@ struct CheckOptions {
   double coordinate_error = 0;         ///< relative rounding of a coordinate in the file it came from (0: exact double)
   const Volume* volume = nullptr;      ///< compare with this image, in the same frame as the mesh
   std::optional<Isosurface> isosurface;  ///< of the volume; default: the isovalue that the mesh carries
-  double node_tolerance_voxels = 1e-4;  ///< how far a surface node may lie from the isosurface
+  std::optional<double> node_tolerance_voxels;  ///< how far a surface node may lie from the isosurface;
+                                                ///< default: 1e-4 if the mesh carries an isovalue, else no bound
   bool require_voxel_topology = false;  ///< fail unless components and Euler number equal the volume's
 };
 
@@ -71,7 +72,7 @@ struct MeshStatistics {
   Distribution angle_degrees;     ///< of surface triangles
   Distribution dihedral_degrees;  ///< of tets
   Distribution radius_edge;       ///< of tets
-  Distribution edge_mm;           ///< of tets (each edge counted once per tet), else of triangles
+  Distribution edge_mm;           ///< shortest and longest edge of each tet, else the edges of the triangles
 };
 
 /// How mesh and voxels compare; filled when a volume was given and the level is full.

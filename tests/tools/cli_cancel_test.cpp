@@ -1,0 +1,55 @@
+// Stopping the real program: signals and limits.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/run_delvox.h"
+
+namespace delvox::test {
+namespace {
+
+std::string make_sphere(const TemporaryFolder& folder) {
+  const std::string path = folder / "sphere.nii";
+  EXPECT_EQ(run_delvox({"phantom", "sphere", "-o", path, "--quiet"}).code, 0);
+  return path;
+}
+
+TEST(CliCancel, CtrlCWhileMeshingExitsWith130AndLeavesNothing) {
+  TemporaryFolder in, out;
+  const std::string volume = make_sphere(in);
+  for (int signal : {SIGINT, SIGTERM}) {
+    const Outcome outcome = run_delvox({"tet", volume, "--size", "0.2", "-o", out / "mesh.vtu", "-o", out / "mesh.stl"},
+                                       {.signal = signal, .signal_after = "surface"});
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_NE(outcome.err.find("cancelled"), std::string::npos) << outcome.err;
+    EXPECT_TRUE(out.names().empty());
+  }
+}
+
+TEST(CliCancel, ALimitExitsWith5AndWritesAMarkedMesh) {
+  TemporaryFolder folder;
+  const std::string volume = make_sphere(folder);
+  const std::string mesh = folder / "mesh.vtu", report = folder / "report.json";
+  const Outcome outcome = run_delvox(
+      {"tet", volume, "--size", "2", "--max-vertices", "500", "-o", mesh, "--report", report, "--quiet"});
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_EQ(line_count(outcome.err), 1u) << outcome.err;
+  EXPECT_NE(outcome.err.find("--max-vertices"), std::string::npos) << outcome.err;
+  EXPECT_EQ(run_delvox({"check", mesh, "--quiet"}).code, 5);
+  const auto json = nlohmann::json::parse(read_file(report));
+  EXPECT_FALSE(json["mesh"]["complete"].get<bool>());
+  EXPECT_EQ(json["run"]["stop"], "max-vertices reached");
+}
+
+TEST(CliCancel, MaxSecondsBoundsTheSearchForANumberOfTets) {
+  TemporaryFolder folder;
+  const std::string volume = make_sphere(folder);
+  const Outcome outcome = run_delvox(
+      {"tet", volume, "--tets", "100000000", "--max-seconds", "0.5", "-o", folder / "mesh.vtu", "--quiet"});
+  EXPECT_EQ(outcome.code, 5) << outcome.err;
+  EXPECT_NE(outcome.err.find("--max-seconds"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace delvox::test

@@ -1,0 +1,148 @@
+// The real program from a volume to meshes: what it promises about its output files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "delvox/mesh_io/read_mesh.h"
+#include "tools/run_delvox.h"
+
+namespace delvox::test {
+namespace {
+
+using nlohmann::json;
+
+class CliMeshing : public ::testing::Test {
+ protected:
+  std::string phantom(const std::string& kind, const std::vector<std::string>& more = {}) {
+    const std::string path = folder_ / (kind + ".nii");
+    std::vector<std::string> arguments{"phantom", kind, "-o", path, "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = run_delvox(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return path;
+  }
+
+  // A run that must succeed; returns its JSON.
+  json run(std::vector<std::string> arguments) {
+    arguments.push_back("--json");
+    const Outcome outcome = run_delvox(arguments);
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    return json::parse(outcome.out, nullptr, false);
+  }
+
+  std::vector<Point3> points_of(const std::string& path) {
+    return std::visit([](const auto& mesh) { return mesh.points; }, read_mesh(path).mesh);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(CliMeshing, TheShortestCommandWorksAndSaysWhatItChose) {
+  const Outcome outcome = run_delvox({"tet", phantom("sphere"), "-o", folder_ / "mesh.vtu"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("isovalue"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("size"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.out.find("every check holds"), std::string::npos) << outcome.out;
+}
+
+TEST_F(CliMeshing, QuietSuccessSaysNothing) {
+  const Outcome outcome = run_delvox({"tet", phantom("sphere"), "-o", folder_ / "mesh.vtu", "--quiet"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(CliMeshing, SameInputAndOptionsGiveTheSameBytes) {
+  const std::string volume = phantom("torus");
+  for (const char* extension : {".vtu", ".stl", ".inp"}) {
+    const std::string first = folder_ / (std::string("first") + extension);
+    const std::string second = folder_ / (std::string("second") + extension);
+    run({"tet", volume, "-o", first});
+    run({"tet", volume, "-o", second});
+    EXPECT_EQ(read_file(first), read_file(second)) << extension;
+    EXPECT_FALSE(read_file(first).empty());
+  }
+}
+
+TEST_F(CliMeshing, SeveralOutputsHoldTheSameMesh) {
+  const std::string vtu = folder_ / "mesh.vtu", inp = folder_ / "mesh.inp", stl = folder_ / "mesh.stl";
+  run({"tet", phantom("sphere"), "-o", vtu, "-o", inp, "-o", stl});
+  EXPECT_EQ(points_of(vtu).size(), points_of(inp).size());
+  EXPECT_LT(points_of(stl).size(), points_of(vtu).size());
+}
+
+TEST_F(CliMeshing, TheReportTellsOptionsVolumeAndChecks) {
+  const std::string path = folder_ / "report.json";
+  run({"tet", phantom("sphere"), "--size", "4", "-o", folder_ / "mesh.vtu", "--report", path});
+  const json report = json::parse(read_file(path));
+  EXPECT_EQ(report["options"]["size"], 4);
+  EXPECT_EQ(report["options"]["min-angle"], 30);
+  EXPECT_EQ(report["volume"]["dims"], json::array({64, 64, 64}));
+  EXPECT_EQ(report["command"][1], "tet");
+  EXPECT_TRUE(report["check"]["all_hold"].get<bool>());
+  EXPECT_EQ(report["check"]["statistics"]["euler"], 2);
+  EXPECT_EQ(report["outputs"].size(), 1u);
+}
+
+TEST_F(CliMeshing, FlagsWinOverTheConfigFile) {
+  const std::string volume = phantom("sphere"), config = folder_ / "config.json";
+  write_file(config, R"({"size": 6, "min-angle": 25, "below": false, "output": [")" + (folder_ / "mesh.vtu") + R"("]})");
+  const json both = run({"tet", volume, "--config", config, "--size", "5"});
+  EXPECT_EQ(both["options"]["size"], 5);
+  EXPECT_EQ(both["options"]["min-angle"], 25);
+  EXPECT_EQ(both["mesh"]["promises"]["size_mm"], 5);
+  EXPECT_EQ(both["mesh"]["promises"]["min_angle_degrees"], 25);
+}
+
+TEST_F(CliMeshing, TetsFindsASizeThatGivesAboutThatMany) {
+  const json report = run({"tet", phantom("sphere"), "--tets", "20000", "-o", folder_ / "mesh.vtu"});
+  EXPECT_NEAR(report["check"]["statistics"]["tets"].get<double>(), 20000, 0.04 * 20000);
+}
+
+TEST_F(CliMeshing, TheOtherFrameTurnsXAndY) {
+  const std::string volume = phantom("sphere", {"--center", "10,20,30"});
+  const std::string ras = folder_ / "ras.vtu", lps = folder_ / "lps.vtu";
+  run({"tet", volume, "--size", "5", "-o", ras});
+  EXPECT_EQ(run({"tet", volume, "--size", "5", "--frame", "lps", "-o", lps})["mesh"]["frame"], "LPS");
+  const std::vector<Point3> a = points_of(ras), b = points_of(lps);
+  ASSERT_EQ(a.size(), b.size());
+  for (std::size_t i = 0; i < a.size(); ++i) EXPECT_EQ(b[i], (Point3{-a[i].x, -a[i].y, a[i].z}));
+  for (const std::string& mesh : {ras, lps}) run({"check", mesh, "--volume", volume});
+}
+
+TEST_F(CliMeshing, WorldPointsOfFlagsAreInTheOutputFrame) {
+  const std::string volume = phantom("sphere", {"--center", "10,20,30"});
+  const json ras = run({"tet", volume, "--size", "5", "--crop", "5:90,:,:mm", "--iso", "at:12,20,30", "-o", folder_ / "a.vtu"});
+  const json lps = run({"tet", volume, "--size", "5", "--crop", "-90:-5,:,:mm", "--iso", "at:-12,-20,30", "--frame", "lps",
+                        "-o", folder_ / "b.vtu"});
+  EXPECT_EQ(ras["isovalue"], lps["isovalue"]);
+  EXPECT_EQ(ras["meshed_volume"]["dims"], lps["meshed_volume"]["dims"]);
+  EXPECT_LT(ras["meshed_volume"]["dims"][0], 64);
+}
+
+TEST_F(CliMeshing, AnOpenBorderEndsWhereTheImageEnds) {
+  const std::string volume = phantom("border");
+  const json closed = run({"surface", volume, "-o", folder_ / "closed.vtu"});
+  const json open = run({"surface", volume, "--border", "open", "-o", folder_ / "open.vtu"});
+  EXPECT_TRUE(open["mesh"]["open_border"].get<bool>());
+  EXPECT_LT(open["check"]["statistics"]["triangles"], closed["check"]["statistics"]["triangles"]);
+  EXPECT_EQ(run_delvox({"check", folder_ / "open.vtu", "--quiet"}).code, 0);
+}
+
+TEST_F(CliMeshing, AVolumeCanBeTheSizeField) {
+  const std::string volume = phantom("sphere");
+  const std::string ramp = folder_ / "ramp.nii";  // grows along a diagonal
+  ASSERT_EQ(run_delvox({"phantom", "ramp", "-o", ramp, "--quiet"}).code, 0);
+  EXPECT_EQ(run_delvox({"tet", volume, "--size", ramp, "-o", folder_ / "bad.vtu", "--quiet"}).code, 3);
+  const json report = run({"tet", volume, "--size", volume, "--iso", "at:20,0,0", "-o", folder_ / "mesh.vtu"});
+  EXPECT_GT(report["check"]["statistics"]["tets"], 0);
+}
+
+TEST_F(CliMeshing, SmallComponentsAreTakenOutAndCounted) {
+  const std::string volume = phantom("noisy-sphere");
+  const json report = run({"tet", volume, "--iso", "otsu", "-o", folder_ / "mesh.vtu"});
+  EXPECT_EQ(report["components"]["kept"], 1);
+}
+
+}  // namespace
+}  // namespace delvox::test
