@@ -288,8 +288,8 @@ TetQuality measure_tets(const std::vector<Point3>& points, std::span<const Tet> 
     const double radius = flat ? std::numeric_limits<double>::infinity() : s.circumradius;
     const double ratio = radius / s.shortest;
     add(result.ratios, std::isfinite(ratio) ? ratio : std::numeric_limits<double>::max());
-    if (!result.radius_edge.any || ratio > result.radius_edge.value) keep_largest(result.radius_edge, ratio, centroid(p));
-    if (!result.circumradius.any || radius > result.circumradius.value) keep_largest(result.circumradius, radius, centroid(p));
+    keep_largest(result.radius_edge, ratio, centroid(p));
+    keep_largest(result.circumradius, radius, centroid(p));
     if (largest_cosine > largest_cosine_of_all) {
       largest_cosine_of_all = largest_cosine;
       keep_smallest(result.dihedral, std::acos(std::clamp(largest_cosine, -1.0, 1.0)) * kDegrees, centroid(p));

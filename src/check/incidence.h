@@ -19,7 +19,9 @@ struct SimplexKey {
   bool flipped = false;
 };
 
-inline SimplexKey edge_key(std::uint32_t a, std::uint32_t b) { return a < b ? SimplexKey{a, b, false} : SimplexKey{b, a, true}; }
+inline SimplexKey edge_key(std::uint32_t a, std::uint32_t b) {
+  return a < b ? SimplexKey{a, b, false} : SimplexKey{b, a, true};
+}
 
 inline SimplexKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   bool flipped = false;
@@ -64,7 +66,8 @@ void for_each_shared_simplex(std::size_t point_count, std::size_t item_count, co
     for (std::size_t item = 0; item < item_count; ++item) {
       const SimplexKey key = key_of(item);
       if (key.first < begin || key.first >= end) continue;
-      entries[bucket_end[key.first - begin]++] = {key.rest, static_cast<std::uint32_t>(item << 1 | (key.flipped ? 1 : 0))};
+      const auto item_and_parity = static_cast<std::uint32_t>(item << 1 | (key.flipped ? 1 : 0));
+      entries[bucket_end[key.first - begin]++] = {key.rest, item_and_parity};
     }
     auto bucket = entries.begin();
     for (std::uint32_t bucket_stop : bucket_end) {

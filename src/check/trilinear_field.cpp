@@ -5,6 +5,32 @@
 #include <limits>
 
 namespace delvox::check {
+namespace {
+
+// Regula falsi with the Illinois rule; bisection's guarantee, a handful of evaluations.
+template <class Function>
+double monotone_root(const Function& f, double low, double f_low, double high, double f_high) {
+  const double width = high - low;
+  for (int step = 0, kept = 0; step < 100 && std::abs(high - low) > 1e-13 * (width + std::abs(high)); ++step) {
+    const double middle = f_low == f_high ? 0.5 * (low + high) : high - f_high * (high - low) / (f_high - f_low);
+    const double value = f(middle);
+    if (value == 0 || middle == high || middle == low) return middle;
+    if ((value > 0) == (f_high > 0)) {
+      high = middle;
+      f_high = value;
+      if (kept == 1) f_low *= 0.5;
+      kept = 1;
+    } else {
+      low = middle;
+      f_low = value;
+      if (kept == -1) f_high *= 0.5;
+      kept = -1;
+    }
+  }
+  return 0.5 * (low + high);
+}
+
+}  // namespace
 
 TrilinearField::TrilinearField(const Volume& volume, const Isosurface& surface) {
   const LevelSet level_set(surface);
@@ -81,19 +107,12 @@ std::optional<double> TrilinearField::crossing_in_voxel(const Point3& origin, co
       if (r > 0 && r < 1) stops[count++] = begin + r * h;
     }
   }
-  double low = begin;
-  bool low_inside = f0 > 0;
+  double low = begin, f_low = f0;
   for (int i = 1; i <= count; ++i) {
-    double high = stops[i == count ? 3 : i];
-    if ((f(high) > 0) != low_inside) {
-      for (int step = 0; step < 50 && high - low > 1e-14 * std::abs(high); ++step) {
-        const double middle = 0.5 * (low + high);
-        if ((f(middle) > 0) == low_inside) low = middle;
-        else high = middle;
-      }
-      return 0.5 * (low + high);
-    }
+    const double high = stops[i == count ? 3 : i], f_high = i == count ? f3 : f(high);
+    if ((f_high > 0) != (f_low > 0)) return monotone_root(f, low, f_low, high, f_high);
     low = high;
+    f_low = f_high;
   }
   return std::nullopt;
 }

@@ -58,9 +58,11 @@ class VoxelChecker {
       const Vector3 normal = cross(b - a, c - a);
       if (!is_finite(center) || !(norm(normal) > 0)) continue;  // "no degenerate triangles" names these
       const double radius = distance(center, a);
-      const double reach = mesh_.bounds.size ? std::sqrt(std::max(0.0, *mesh_.bounds.size * *mesh_.bounds.size * kSlack -
-                                                                       radius * radius)) + 4 * displacement()
-                                             : 4 * radius + 2 * voxel_mm_;
+      double reach = 4 * radius + 2 * voxel_mm_;
+      if (mesh_.bounds.size) {
+        const double size = *mesh_.bounds.size;
+        reach = std::sqrt(std::max(0.0, size * size * kSlack - radius * radius)) + 4 * displacement();
+      }
       const auto height = nearest_crossing_mm(center, (1 / norm(normal)) * normal, reach);
       if (!height) {
         ++without_ball;
@@ -88,7 +90,9 @@ class VoxelChecker {
     if (!mesh_.open_border) return;
     double longest = 0;
     for (const Triangle& t : mesh_.triangles) {
-      for (int i = 0; i < 3; ++i) longest = std::max(longest, distance(mesh_.points[t[i]], mesh_.points[t[(i + 1) % 3]]));
+      for (int i = 0; i < 3; ++i) {
+        longest = std::max(longest, distance(mesh_.points[t[i]], mesh_.points[t[(i + 1) % 3]]));
+      }
     }
     const double reach = longest * voxels_per_mm_ * std::sqrt(3.0) + 1;
     Tally astray;
@@ -106,8 +110,10 @@ class VoxelChecker {
   }
 
   void measure_mesh_to_surface(VoxelComparison& comparison) const {
-    static constexpr double kSamples[4][3] = {
-        {1.0 / 3, 1.0 / 3, 1.0 / 3}, {2.0 / 3, 1.0 / 6, 1.0 / 6}, {1.0 / 6, 2.0 / 3, 1.0 / 6}, {1.0 / 6, 1.0 / 6, 2.0 / 3}};
+    static constexpr double kSamples[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3},
+                                              {2.0 / 3, 1.0 / 6, 1.0 / 6},
+                                              {1.0 / 6, 2.0 / 3, 1.0 / 6},
+                                              {1.0 / 6, 1.0 / 6, 2.0 / 3}};
     double area_sum = 0, weighted = 0;
     for (const Triangle& t : mesh_.triangles) {
       const Point3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
@@ -128,7 +134,8 @@ class VoxelChecker {
   void measure_surface_to_mesh(VoxelComparison& comparison) const {
     constexpr std::size_t kEnough = 200000;
     const TriangleTree tree(mesh_.points, mesh_.triangles);
-    const std::size_t crossings = field_.for_each_grid_crossing(std::numeric_limits<std::size_t>::max(), [](const Point3&) {});
+    constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+    const std::size_t crossings = field_.for_each_grid_crossing(kNone, [](const Point3&) {});
     std::size_t measured = 0;
     double sum = 0;
     field_.for_each_grid_crossing(1 + crossings / kEnough, [&](const Point3& p) {
@@ -166,10 +173,12 @@ class VoxelChecker {
     return std::isfinite(nearest) ? nearest : first_order;
   }
 
-  // Along a line through `world`, to either side.
+  // Along a line through `world`, to either side; the side that leads towards the level is walked first, so that the
+  // other needs to be walked no further.
   std::optional<double> nearest_crossing_mm(const Point3& world, const Vector3& unit, double reach) const {
     const Point3 origin = to_index_(world);
-    const Vector3 direction = to_index_.linear(unit);
+    Vector3 direction = to_index_.linear(unit);
+    if (field_.value(origin) * dot(field_.gradient(origin), direction) > 0) direction = -1.0 * direction;
     const auto ahead = field_.first_crossing(origin, direction, reach);
     const auto behind = field_.first_crossing(origin, -1.0 * direction, ahead.value_or(reach));
     return behind ? behind : ahead;

@@ -16,8 +16,10 @@ struct RestrictedDelaunay::Kernel : Delaunay3 {
 RestrictedDelaunay::RestrictedDelaunay(const Oracle& oracle)
     : oracle_(oracle), kernel_(std::make_unique<Kernel>(oracle.bounds())) {
   for (VertexId v = 0; v < kernel_->vertex_capacity(); ++v) name_vertex(v, kernel_->point(v), VertexKind::kCorner);
-  // Below this radius the rounding of a circumcentre is no longer far below the filter's margin.
-  const double smallest_trusted = 1e-6 * oracle.bounds().diagonal();
+  // Below this radius the rounding of a circumcentre, which grows with its coordinates, is no longer far below the
+  // filter's margin.
+  const Box3 bounds = oracle.bounds();
+  const double smallest_trusted = std::max(1e-6 * bounds.diagonal(), 1e-8 * (norm(bounds.min) + norm(bounds.max)));
   trusted_squared_radius_ = smallest_trusted * smallest_trusted;
 }
 

@@ -141,10 +141,14 @@ bool Refinement::repair_umbrella(VertexId vertex) {
   SurfaceBall largest;
   FacetId facet;
   for (const FacetId& candidate : umbrella.facets) {
-    const SurfaceBall* known = delaunay_.ball(candidate);
-    const SurfaceBall ball = known != nullptr ? *known : delaunay_.compute_ball(candidate);
-    if (ball.squared_radius <= largest.squared_radius) continue;
-    largest = ball;
+    const SurfaceBall* ball = delaunay_.ball(candidate);
+    if (ball == nullptr) {
+      // An insertion of this round made the facet: it waits to be judged, and the umbrella for the next round.
+      mark_dirty(candidate);
+      return false;
+    }
+    if (ball->squared_radius <= largest.squared_radius) continue;
+    largest = *ball;
     facet = candidate;
   }
   if (largest.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) {

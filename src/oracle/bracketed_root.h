@@ -13,7 +13,8 @@ double bracketed_root(const Function& f, double a, double fa, double b, double f
   const double noise = 2 * std::numeric_limits<double>::epsilon() * scale;
   double best = std::abs(fa) < std::abs(fb) ? a : b;
   double best_value = std::min(std::abs(fa), std::abs(fb));
-  double weight_a = fa, weight_b = fb;  // Illinois halves the weight of an end that stays
+  double weight_a = fa, weight_b = fb;
+  int stays = 0;  // which end has stayed last: -1 a, 1 b. Illinois halves the weight of one that stays twice in a row
   for (int iteration = 0; iteration < 100 && best_value > noise; ++iteration) {
     const bool bisect = iteration % 4 == 3;
     double t = bisect ? 0.5 * (a + b) : (a * weight_b - b * weight_a) / (weight_b - weight_a);
@@ -27,11 +28,13 @@ double bracketed_root(const Function& f, double a, double fa, double b, double f
     if ((ft > 0) == (fa > 0)) {
       a = t;
       fa = weight_a = ft;
-      weight_b *= 0.5;
+      if (stays == 1) weight_b *= 0.5;
+      stays = 1;
     } else {
       b = t;
       fb = weight_b = ft;
-      weight_a *= 0.5;
+      if (stays == -1) weight_a *= 0.5;
+      stays = -1;
     }
   }
   return best;

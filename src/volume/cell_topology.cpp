@@ -194,7 +194,9 @@ CellTopology topology_of(const std::array<Number, 8>& values, unsigned mask) {
     if (slab == Slab::kSeparate) ++result.euler;
     if (slab == Slab::kInsideTunnel) --result.euler;
     // A strand is outside or inside at some height of the slab: its end with that sign stands for it.
-    const auto end_of = [&](int s, bool inside) { return bit(mask, kStrands[s]) == inside ? kStrands[s] : kStrands[s] + 4; };
+    const auto end_of = [&](int s, bool inside) {
+      return bit(mask, kStrands[s]) == inside ? kStrands[s] : kStrands[s] + 4;
+    };
     if (slab != Slab::kSeparate) join(result.group, end_of(first, true), end_of(first + 2, true));
     if (slab != Slab::kJoined) join(result.group, end_of(first + 1, false), end_of((first + 3) % 4, false));
   }

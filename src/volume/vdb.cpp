@@ -62,6 +62,7 @@ class VdbHeader {
     return length;
   }
   void skip_metadata();
+  void skip_transform();
   GridEntry read_descriptor();
   [[noreturn]] void fail_damaged() const {
     fail_input(path_, "damaged or truncated OpenVDB file", "copy or download the file again");
@@ -79,6 +80,21 @@ void VdbHeader::skip_metadata() {
     read_string();
     stream_.seekg(static_cast<std::streamoff>(checked_length(read<std::uint32_t>())), std::ios::cur);
   }
+}
+
+void VdbHeader::skip_transform() {
+  const std::string type = read_string();
+  constexpr std::streamoff kVector = 3 * sizeof(double), kMatrix = 16 * sizeof(double);
+  std::streamoff size = 0;
+  if (type == "TranslationMap") size = kVector;
+  if (type == "ScaleMap" || type == "UniformScaleMap") size = 5 * kVector;
+  if (type == "ScaleTranslateMap" || type == "UniformScaleTranslateMap") size = 6 * kVector;
+  if (type == "AffineMap" || type == "UnitaryMap") size = kMatrix;
+  if (type == "NonlinearFrustumMap") {
+    fail_input(path_, "its grid lies in a frustum, not on a regular lattice", "resample it to a linear transform");
+  }
+  if (size == 0) fail_damaged();
+  stream_.seekg(size, std::ios::cur);
 }
 
 GridEntry VdbHeader::read_descriptor() {
@@ -120,7 +136,9 @@ GridEntry VdbHeader::first_scalar_grid() {
     if (is_scalar_type(entry.type) && entry.parent.empty()) {
       read<std::uint32_t>();  // compression
       skip_metadata();
-      read_string();  // type of the transform
+      skip_transform();
+      // Any other number of buffers would be warned of on stderr.
+      if (read<std::int32_t>() != 1) fail_damaged();
       return entry;
     }
     if (!has_offsets || entry.end <= entry.descriptor) break;
@@ -185,11 +203,9 @@ openvdb::CoordBBox extent(const fs::path& path, const openvdb::GridBase& grid) {
   return box;
 }
 
-Affine3 affine_of(const fs::path& path, const openvdb::GridBase& grid, const openvdb::Coord& first) {
-  if (!grid.transform().isLinear()) {
-    fail_input(path, "its grid lies in a frustum, not on a regular lattice", "resample it to a linear transform");
-  }
-  const openvdb::math::Mat4d matrix = grid.transform().baseMap()->getAffineMap()->getMat4();
+Affine3 affine_of(const openvdb::GridBase& grid, const openvdb::Coord& first) {
+  const openvdb::math::MapBase::ConstPtr map = grid.transform().baseMap();
+  const openvdb::math::Mat4d matrix = map->getAffineMap()->getMat4();
   Affine3 affine;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) affine.rows[row][column] = matrix(column, row);
@@ -272,7 +288,7 @@ Volume read_vdb(ByteSource source, const ReadVolumeOptions& options) {
   const openvdb::GridBase::Ptr grid = load_grid(path, source.capacity());
   const openvdb::CoordBBox box = extent(path, *grid);
   header.dims = {box.dim()[0], box.dim()[1], box.dim()[2]};
-  header.index_to_world = affine_of(path, *grid, box.min());
+  header.index_to_world = affine_of(*grid, box.min());
   header.format = "OpenVDB";
   header.sample_type = grid->saveFloatAsHalf() ? "float16" : grid->valueType();
   if (header.sample_type == "float") header.sample_type = "float32";

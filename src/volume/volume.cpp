@@ -98,7 +98,12 @@ Volume::Volume(VolumeHeader header, const std::vector<float>& samples) {
   impl->max = high;
   impl->grid = openvdb::FloatGrid::create(0.0f);
   impl->grid->setName("density");
-  impl->grid->setTransform(to_openvdb_transform(impl->header.index_to_world));
+  try {
+    impl->grid->setTransform(to_openvdb_transform(impl->header.index_to_world));
+  } catch (const openvdb::ArithmeticError&) {
+    // OpenVDB calls every determinant below 3e-15 singular, whatever the shape.
+    throw InputError("volume: the voxels are below 3e-15 mm^3, too small for OpenVDB; state lengths in a larger unit");
+  }
   const CoordBBox box(Coord(0), Coord(dims[0] - 1, dims[1] - 1, dims[2] - 1));
   const XyzDense dense(box, const_cast<float*>(samples.data()));
   openvdb::tools::copyFromDense(dense, *impl->grid, 0.0f, /*serial=*/true);

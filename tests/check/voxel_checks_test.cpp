@@ -93,7 +93,8 @@ TEST(TriangleTree, DistanceAgreesWithAllTriangles) {
     const Point3 p{1 + 3 * std::sin(s * 1.3), 2 + 3 * std::sin(s * 2.1), 3 + 3 * std::sin(s * 0.7)};
     double best = 1e30;
     for (const Triangle& t : mesh.triangles) {
-      best = std::min(best, check::squared_distance_to_triangle(p, mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
+      const Point3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]];
+      best = std::min(best, check::squared_distance_to_triangle(p, a, b, c));
     }
     EXPECT_DOUBLE_EQ(tree.distance(p), std::sqrt(best));
     EXPECT_NEAR(tree.distance(p), std::abs(distance(p, {1, 2, 3}) - 2), 0.02);
@@ -192,7 +193,9 @@ TEST(CheckAgainstVoxels, MissingComponentIsNamed) {
 }
 
 TEST(CheckAgainstVoxels, RimMustLieOnTheImageBorder) {
-  const Volume volume = volume_of({25, 25, 13}, [](double x, double y, double z) { return ball(x, y, z, kCenter, kRadius); });
+  const Volume volume = volume_of({25, 25, 13}, [](double x, double y, double z) {
+    return ball(x, y, z, kCenter, kRadius);
+  });
   SurfaceMesh mesh = mesh_on_isosurface(sphere_volume(), 4);
   // As --border open does: triangles with a node in the padding go.
   std::erase_if(mesh.triangles, [&](const Triangle& t) {

@@ -53,7 +53,8 @@ class BruteForceTopology {
       corner[c] = x > n_[0] || y > n_[1] || z > n_[2] ? -1 : std::int64_t{index(x, y, z)};
     }
     for (int c = 1; c < 8; ++c) {
-      if (corner[c] >= 0 && inside_[base] == inside_[corner[c]]) parent_[root(base)] = root(static_cast<std::uint32_t>(corner[c]));
+      if (corner[c] < 0 || inside_[base] != inside_[corner[c]]) continue;
+      parent_[root(base)] = root(static_cast<std::uint32_t>(corner[c]));
     }
     const auto in = [&](int c) { return corner[c] >= 0 && inside_[corner[c]]; };
     if (!inside_[base]) return;

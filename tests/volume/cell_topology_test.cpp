@@ -59,7 +59,9 @@ std::array<int, 8> symmetry(int which) {
   std::array<int, 8> map;
   for (int c = 0; c < 8; ++c) {
     map[c] = 0;
-    for (int axis = 0; axis < 3; ++axis) map[c] |= ((c >> axis & 1) ^ (which / 6 >> axis & 1)) << kAxes[which % 6][axis];
+    for (int axis = 0; axis < 3; ++axis) {
+      map[c] |= ((c >> axis & 1) ^ (which / 6 >> axis & 1)) << kAxes[which % 6][axis];
+    }
   }
   return map;
 }

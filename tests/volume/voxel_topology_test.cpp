@@ -104,7 +104,9 @@ TEST(VoxelTopology, DoesNotDependOnTheOrderOfTheAxes) {
   for (const Volume* v : {&volume, &real}) {
     const double iso = v == &volume ? 2.0 : 0.1;
     const std::vector<float> s = v->samples();
-    const auto at = [&](double i, double j, double k) { return s[static_cast<std::size_t>((k * n[1] + j) * n[0] + i)]; };
+    const auto at = [&](double i, double j, double k) {
+      return s[static_cast<std::size_t>((k * n[1] + j) * n[0] + i)];
+    };
     const VoxelTopology reference = count_topology(*v, {iso});
     const VoxelTopology turned[] = {
         count_topology(volume_of({n[1], n[2], n[0]}, [&](double j, double k, double i) { return at(i, j, k); }), {iso}),
@@ -188,7 +190,8 @@ TEST(VoxelTopology, SlabsOfAnyDepthGiveTheSame) {
 Volume big_small_and_hollow() {
   return volume_of({40, 30, 30}, [](double x, double y, double z) {
     const double big = std::min(ball(x, y, z, {13, 14, 14}, 10), -ball(x, y, z, {13, 14, 14}, 4.2));
-    return std::max({big, ball(x, y, z, {13, 14, 14}, 1.7), ball(x, y, z, {32, 14, 14}, 4), ball(x, y, z, {32, 25, 25}, 1.5)});
+    return std::max({big, ball(x, y, z, {13, 14, 14}, 1.7), ball(x, y, z, {32, 14, 14}, 4),
+                     ball(x, y, z, {32, 25, 25}, 1.5)});
   });
 }
 

@@ -1,0 +1,267 @@
+#!/usr/bin/python3
+"""Pictures of meshes: the surface with its edges, and a cut-away view of the tets coloured by quality.
+
+    xvfb-run -a testdata/gallery/render.py mesh.vtu -o mesh.png [--cut x|y|z|nx,ny,nz] [--from anterior|...|x,y,z]
+
+Needs Debian's python3-vtk9 and xvfb, nothing else. Views assume RAS coordinates (+x right, +y front, +z up of the
+patient); a mesh in another frame wants --from x,y,z. With --cut the tets whose centroid lies beyond the plane are
+taken away, whole tets only; the faces laid open show each tet's smallest dihedral angle.
+"""
+import argparse
+import os
+import struct
+import sys
+import zlib
+
+import vtk
+
+DIRECTIONS = {  # where the camera stands, seen from the middle of the mesh
+    "anterior": (0, 1, 0), "posterior": (0, -1, 0), "right": (1, 0, 0), "left": (-1, 0, 0),
+    "superior": (0, 0.001, 1), "inferior": (0, 0.001, -1), "three-quarter": (0.75, 1, 0.35)}
+BONE = (0.90, 0.87, 0.80)
+BACKGROUND = (1, 1, 1)
+READERS = {".vtu": vtk.vtkXMLUnstructuredGridReader, ".vtk": vtk.vtkDataSetReader, ".stl": vtk.vtkSTLReader,
+           ".ply": vtk.vtkPLYReader, ".obj": vtk.vtkOBJReader}
+
+
+def vector(text):
+    if text in DIRECTIONS:
+        return DIRECTIONS[text]
+    if text in ("x", "y", "z"):
+        return tuple(float(text == axis) for axis in "xyz")
+    parts = tuple(float(part) for part in text.split(","))
+    if len(parts) != 3 or not any(parts):
+        raise argparse.ArgumentTypeError("three numbers or a name: " + ", ".join(DIRECTIONS))
+    return parts
+
+
+def parse_arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mesh")
+    parser.add_argument("-o", "--output", required=True)
+    parser.add_argument("--from", dest="eye", type=vector, default=DIRECTIONS["three-quarter"])
+    parser.add_argument("--up", type=vector, default=(0, 0, 1))
+    parser.add_argument("--cut", type=vector, help="take away what lies on this side of the plane")
+    parser.add_argument("--at", type=float, default=0.5, help="where the plane lies along its normal, 0 to 1")
+    parser.add_argument("--size", default="1000x800")
+    parser.add_argument("--zoom", type=float, default=1.35)
+    parser.add_argument("--no-edges", action="store_true")
+    parser.add_argument("--colours", type=int, default=96, help="of the PNG's palette")
+    return parser.parse_args()
+
+
+def read(path):
+    reader = READERS[os.path.splitext(path)[1].lower()]()
+    reader.SetFileName(path)
+    reader.Update()
+    mesh = reader.GetOutput()
+    if mesh.GetNumberOfCells() == 0:
+        sys.exit("render.py: " + path + ": nothing to show")
+    return mesh
+
+
+def cells_of(mesh, vtk_type):
+    """The tets, or the triangles, of an unstructured grid."""
+    wanted = vtk.vtkIdList()
+    for i in range(mesh.GetNumberOfCells()):
+        if mesh.GetCellType(i) == vtk_type:
+            wanted.InsertNextId(i)
+    extract = vtk.vtkExtractCells()
+    extract.SetInputData(mesh)
+    extract.SetCellList(wanted)
+    extract.Update()
+    return extract.GetOutput()
+
+
+def surface_of(mesh):
+    """Boundary triangles; their corners and cells know the ids they have in `mesh`."""
+    geometry = vtk.vtkGeometryFilter()
+    geometry.SetInputData(mesh)
+    geometry.PassThroughPointIdsOn()
+    geometry.PassThroughCellIdsOn()
+    geometry.SetOriginalPointIdsName("point")
+    geometry.SetOriginalCellIdsName("cell")
+    geometry.Update()
+    return geometry.GetOutput()
+
+
+def faces_of(surface, name):
+    """Per triangle, the ids of its corners in the mesh that the array `name` refers to."""
+    ids = surface.GetPointData().GetArray(name)
+    corners = vtk.vtkIdList()
+    for i in range(surface.GetNumberOfCells()):
+        surface.GetCellPoints(i, corners)
+        yield frozenset(int(ids.GetTuple1(corners.GetId(k))) for k in range(corners.GetNumberOfIds()))
+
+
+def smallest_dihedrals(tets):
+    quality = vtk.vtkMeshQuality()
+    quality.SetInputData(tets)
+    quality.SetTetQualityMeasureToMinAngle()
+    quality.Update()
+    return quality.GetOutput().GetCellData().GetArray("Quality")
+
+
+def cut_open(tets, normal, at):
+    """Surface of the tets left of the plane; `shown` is the smallest dihedral where cut, not a number elsewhere."""
+    numbers = vtk.vtkIdTypeArray()
+    numbers.SetName("whole")
+    for i in range(tets.GetNumberOfPoints()):
+        numbers.InsertNextValue(i)
+    tets.GetPointData().AddArray(numbers)
+    outer = set(faces_of(surface_of(tets), "point"))
+    dihedral = smallest_dihedrals(tets)
+    dihedral.SetName("dihedral")
+    tets.GetCellData().AddArray(dihedral)
+
+    bounds = tets.GetBounds()
+    low, high = bounds[0::2], bounds[1::2]
+    corners = [sum(n * (h if n * side > 0 else l) for n, l, h in zip(normal, low, high)) for side in (-1, 1)]
+    level = corners[0] + at * (corners[1] - corners[0])
+    centers = vtk.vtkCellCenters()
+    centers.SetInputData(tets)
+    centers.Update()
+    kept = vtk.vtkIdList()
+    for i in range(tets.GetNumberOfCells()):
+        if sum(n * x for n, x in zip(normal, centers.GetOutput().GetPoint(i))) < level:
+            kept.InsertNextId(i)
+    extract = vtk.vtkExtractCells()
+    extract.SetInputData(tets)
+    extract.SetCellList(kept)
+    extract.Update()
+
+    surface = surface_of(extract.GetOutput())
+    shown = vtk.vtkFloatArray()
+    shown.SetName("shown")
+    value = surface.GetCellData().GetArray("dihedral")
+    for i, face in enumerate(faces_of(surface, "whole")):
+        shown.InsertNextValue(float("nan") if face in outer else value.GetTuple1(i))
+    surface.GetCellData().SetScalars(shown)
+    return surface
+
+
+def colours():
+    """Smallest dihedral angle, degrees: red is bad, blue is good."""
+    transfer = vtk.vtkColorTransferFunction()
+    for degrees, rgb in ((0, (0.70, 0.05, 0.10)), (15, (0.95, 0.55, 0.25)), (30, (0.98, 0.90, 0.55)),
+                         (45, (0.50, 0.75, 0.80)), (70, (0.15, 0.35, 0.65))):
+        transfer.AddRGBPoint(degrees, *rgb)
+    transfer.SetNanColor(*BONE)
+    return transfer
+
+
+def actor_of(surface, edges, lookup):
+    mapper = vtk.vtkPolyDataMapper()
+    mapper.SetInputData(surface)
+    mapper.ScalarVisibilityOff()
+    if lookup:
+        mapper.SetLookupTable(lookup)
+        mapper.SetScalarModeToUseCellData()
+        mapper.ScalarVisibilityOn()
+    actor = vtk.vtkActor()
+    actor.SetMapper(mapper)
+    shading = actor.GetProperty()
+    shading.SetColor(*BONE)
+    shading.SetInterpolationToFlat()
+    shading.SetAmbient(0.25)
+    shading.SetDiffuse(0.8)
+    shading.SetEdgeVisibility(edges)
+    shading.SetEdgeColor(0.25, 0.25, 0.28)
+    shading.SetLineWidth(0.6)
+    inside = vtk.vtkProperty()  # back faces stand out: on a closed, outward mesh none is ever seen
+    inside.DeepCopy(shading)
+    inside.SetColor(0.9, 0.1, 0.7)
+    actor.SetBackfaceProperty(inside)
+    return actor
+
+
+def legend(lookup):
+    bar = vtk.vtkScalarBarActor()
+    bar.SetLookupTable(lookup)
+    bar.SetTitle("smallest\ndihedral, deg\n")
+    bar.SetNumberOfLabels(8)
+    bar.SetLabelFormat("%.0f")
+    bar.SetUnconstrainedFontSize(True)
+    for style in (bar.GetTitleTextProperty(), bar.GetLabelTextProperty()):
+        style.SetColor(0.1, 0.1, 0.1)
+        style.ShadowOff()
+        style.ItalicOff()
+        style.BoldOff()
+        style.SetFontSize(15)
+    bar.SetPosition(0.89, 0.25)
+    bar.SetWidth(0.08)
+    bar.SetHeight(0.5)
+    return bar
+
+
+def shoot(actors, options):
+    renderer = vtk.vtkRenderer()
+    renderer.SetBackground(*BACKGROUND)
+    for actor in actors:
+        renderer.AddViewProp(actor)
+    window = vtk.vtkRenderWindow()
+    window.OffScreenRenderingOn()
+    window.SetMultiSamples(8)
+    window.SetSize(*(int(part) for part in options.size.split("x")))
+    window.AddRenderer(renderer)
+    camera = renderer.GetActiveCamera()
+    camera.SetFocalPoint(0, 0, 0)
+    camera.SetPosition(*options.eye)
+    camera.SetViewUp(*options.up)
+    camera.ParallelProjectionOn()
+    renderer.ResetCamera()
+    camera.Zoom(options.zoom)
+    renderer.ResetCameraClippingRange()
+    window.Render()
+    grab = vtk.vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    return grab.GetOutput()
+
+
+def write_palette_png(image, count, path):
+    """A PNG of few colours: a third of the size of one in full colour."""
+    quantize = vtk.vtkImageQuantizeRGBToIndex()
+    quantize.SetInputData(image)
+    quantize.SetNumberOfColors(count)
+    quantize.Update()
+    indices, table = quantize.GetOutput(), quantize.GetLookupTable()
+    width, height, _ = indices.GetDimensions()
+    numbers = vtk.vtkImageCast()
+    numbers.SetInputData(indices)
+    numbers.SetOutputScalarTypeToUnsignedChar()
+    numbers.Update()
+    data = bytes(memoryview(numbers.GetOutput().GetPointData().GetScalars()))
+    rows = b"".join(b"\0" + data[y * width:(y + 1) * width] for y in range(height - 1, -1, -1))
+    palette = bytes(round(255 * c) for i in range(count) for c in table.GetTableValue(i)[:3])
+
+    def chunk(name, body):
+        return struct.pack(">I", len(body)) + name + body + struct.pack(">I", zlib.crc32(name + body))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 3, 0, 0, 0)
+    with open(path, "wb") as out:
+        out.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"PLTE", palette) +
+                  chunk(b"IDAT", zlib.compress(rows, 9)) + chunk(b"IEND", b""))
+
+
+def main():
+    options = parse_arguments()
+    mesh = read(options.mesh)
+    lookup = None
+    if options.cut:
+        surface = cut_open(cells_of(mesh, vtk.VTK_TETRA), options.cut, options.at)
+        lookup = colours()
+    elif mesh.IsA("vtkUnstructuredGrid"):
+        tets = cells_of(mesh, vtk.VTK_TETRA)
+        surface = surface_of(tets if tets.GetNumberOfCells() else mesh)
+    else:
+        surface = mesh
+    actors = [actor_of(surface, not options.no_edges, lookup)] + ([legend(lookup)] if lookup else [])
+    write_palette_png(shoot(actors, options), options.colours, options.output)
+    print("%s: %d triangles, %.0f kB" % (options.output, surface.GetNumberOfCells(),
+                                         os.path.getsize(options.output) / 1000))
+
+
+if __name__ == "__main__":
+    main()

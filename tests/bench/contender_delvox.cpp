@@ -1,0 +1,35 @@
+#include <algorithm>
+#include <sstream>
+
+#include "contender.h"
+#include "delvox/meshing/deltetsurf.h"
+#include "delvox/oracle/isosurface_oracle.h"
+
+namespace delvox::bench {
+
+BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const BenchCriteria& criteria) {
+  const Vector3 spacing = volume.header().spacing();
+  DelTetSurfOptions options;
+  options.surface.size = criteria.size;
+  options.surface.min_angle_degrees = criteria.angle_degrees;
+  options.surface.min_ball_radius = 0.1 * std::min({spacing.x, spacing.y, spacing.z});  // as the program's default
+  options.tets.cell_size = criteria.cell_size;
+  options.tets.radius_edge = criteria.radius_edge;
+
+  BenchRun run;
+  RunReport report;
+  const Meter meter;
+  const auto oracle = make_isosurface_oracle(volume, surface);
+  run.mesh = deltetsurf(*oracle, options, report);
+  meter.stop(run);
+
+  std::ostringstream note;
+  for (const Unmet& unmet : report.unmet) {
+    note << unmet.count << " unmet: " << unmet.criterion << (unmet.breaks_promise ? "" : " (no promise)") << "; ";
+  }
+  for (const StageTime& stage : report.stages) note << stage.stage << ' ' << stage.seconds << " s ";
+  run.note = note.str();
+  return run;
+}
+
+}  // namespace delvox::bench
