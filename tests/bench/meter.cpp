@@ -28,8 +28,8 @@ double status_bytes(const std::string& key) {
 }  // namespace
 
 Meter::Meter() {
-  malloc_trim(0);                                // what freed inputs left behind must not be reused unseen
-  std::ofstream("/proc/self/clear_refs") << 5;   // the peak (VmHWM, that is ru_maxrss) starts again from here
+  malloc_trim(0);                               // what freed inputs left behind must not be reused unseen
+  std::ofstream("/proc/self/clear_refs") << 5;  // the peak (VmHWM, that is ru_maxrss) starts again from here
   resident_ = status_bytes("VmRSS");
   wall_ = seconds_of(CLOCK_MONOTONIC);
   cpu_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
