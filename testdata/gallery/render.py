@@ -45,7 +45,7 @@ def parse_arguments():
     parser.add_argument("--at", type=float, default=0.5, help="where the plane lies along its normal, 0 to 1")
     parser.add_argument("--size", default="1000x800")
     parser.add_argument("--no-edges", action="store_true")
-    parser.add_argument("--colours", type=int, default=224, help="of the PNG's palette")
+    parser.add_argument("--colours", type=int, default=192, help="of the PNG's palette")
     return parser.parse_args()
 
 

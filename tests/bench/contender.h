@@ -50,6 +50,7 @@ class Meter {
  public:
   Meter();
   void stop(BenchRun& run) const;
+  double peak_bytes() const;
 
  private:
   double resident_, wall_, cpu_;

@@ -35,10 +35,14 @@ Meter::Meter() {
   cpu_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
+double Meter::peak_bytes() const {
+  return status_bytes("VmHWM") - resident_;
+}
+
 void Meter::stop(BenchRun& run) const {
   run.cpu_seconds = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu_;
   run.seconds = seconds_of(CLOCK_MONOTONIC) - wall_;
-  run.peak_bytes = status_bytes("VmHWM") - resident_;
+  run.peak_bytes = peak_bytes();
 }
 
 }  // namespace delvox::bench
