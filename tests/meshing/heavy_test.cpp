@@ -32,7 +32,7 @@ void expect_everything(const PhantomCase& c) {
   const VoxelTopology voxels = count_topology(volume, c.isosurface());
   EXPECT_EQ(found.components, voxels.surface_components);
   EXPECT_EQ(found.euler, voxels.euler);
-  RecordProperty("tets", static_cast<int>(mesh.tets.size()));
+  ::testing::Test::RecordProperty("tets", static_cast<int>(mesh.tets.size()));
 }
 
 TEST(Heavy, ASphereOfHundredsOfThousandsOfTetsKeepsEveryPromise) {
