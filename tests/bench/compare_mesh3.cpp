@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <numbers>
 #include <optional>
 
@@ -96,6 +95,7 @@ class Comparison {
       const auto inside =
           std::count_if(samples.begin(), samples.end(), [&](float s) { return level_set.inside(level_set.sign * s); });
       shape.inside_mm3 = static_cast<double>(inside) * shape.spacing.x * shape.spacing.y * shape.spacing.z;
+      if (inside == 0) throw std::runtime_error("no sample is inside");  // CGAL would look for one for ever
       arena_.samples.write_array(samples);
       arena_.shape.write_array(std::vector{shape});
       Outcome done;
@@ -113,16 +113,11 @@ class Comparison {
   }
 
   Outcome run_once(Contender contender, double size) {
-    const bool measured = !measures_.contains({int(contender), size});
-    Outcome outcome = run_isolated([&] { return contend(contender, size, measured); });
-    MeshMeasures& known = measures_[{int(contender), size}];
-    if (measured) known = outcome.mesh;
-    outcome.mesh = known;  // a contender gives the same mesh each time; the parallel tag too, on one thread
-    return outcome;
+    return run_isolated([&] { return contend(contender, size); });
   }
 
-  /// In a process of its own.
-  Outcome contend(Contender contender, double size, bool measured) const {
+  /// In a process of its own. Every run is measured: CGAL's parallel tag gives another mesh each time.
+  Outcome contend(Contender contender, double size) const {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(options_.threads));
     Outcome outcome;
@@ -136,8 +131,8 @@ class Comparison {
       run = contender == Contender::kDelvox
                 ? run_delvox(volume, surface_, criteria(size))
                 : run_mesh3(make_bench_image(volume, surface_), criteria(size), tagged(contender));
-      if (measured) outcome.mesh = measure(run.mesh, make_bench_image(volume, surface_));
-      if (measured && !options_.write_prefix.empty()) write(contender, run.mesh);
+      outcome.mesh = measure(run.mesh, make_bench_image(volume, surface_));
+      if (!options_.write_prefix.empty()) write(contender, run.mesh);
       if (contender == Contender::kDelvox) arena_.points.write_array(run.mesh.points);
     }
     outcome.ok = true;
@@ -221,7 +216,6 @@ class Comparison {
   Options options_;
   Isosurface surface_;
   Arena arena_;
-  std::map<std::pair<int, double>, MeshMeasures> measures_;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -249,7 +243,7 @@ void declare(CLI::App& app, Options& options) {
       ->check(CLI::IsMember({"default", "components"}));
   app.add_option("--cgal-error-bound", options.mesh3.error_bound, "Of CGAL's bisection, relative to the bounding box");
   app.add_flag("--cgal-manifold", options.mesh3.manifold, "Ask CGAL for a manifold boundary");
-  app.add_option("--write", options.write_prefix, "Write each mesh to PREFIX_contender.vtu");
+  app.add_option("--write", options.write_prefix, "Write each mesh (of the last run) to PREFIX_contender.vtu");
 }
 
 int main_of(int argc, char** argv) {
