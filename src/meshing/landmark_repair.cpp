@@ -37,15 +37,18 @@ std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId
 }
 
 bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
-  const double floor = surface_.min_ball_radius * surface_.min_ball_radius;
+  // A landmark that lies on the surface itself, as ties and symmetric volumes have them, asks for points ever nearer to
+  // it: even without a smallest ball that must end.
+  const double smallest = std::max(surface_.min_ball_radius, 1e-7 * oracle_.bounds().diagonal());
   const Star& star = delaunay_.evaluate(p, hint);
+  bool too_near = star.duplicate;
   for (const Star::Tet& tet : star.tets) {
-    for (VertexId vertex : tet.vertices) {
-      if (squared_distance(p, delaunay_.point(vertex)) > floor) continue;
-      ++lost_landmarks_;
-      lost_place_ = p;
-      return false;
-    }
+    for (VertexId vertex : tet.vertices) too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;
+  }
+  if (too_near) {
+    ++lost_landmarks_;
+    lost_place_ = p;
+    return false;
   }
   if (!insert_surface_point(p, hint)) return false;
   ++report_.topology_insertions;
