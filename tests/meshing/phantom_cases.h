@@ -20,8 +20,8 @@ struct PhantomCase {
 
   Volume volume() const { return make_phantom(kind, image); }
   Isosurface isosurface() const { return {isovalue.value_or(phantom_truth(kind, image).isovalue), false}; }
-  /// Where the topology of every voxel is asked for, necks of a hundredth of a voxel count.
-  double min_ball_radius() const { return (size <= 0.5 * voxel() ? 0.01 : 0.1) * voxel(); }
+  /// Where the topology of every voxel is asked for, necks of any width count.
+  double min_ball_radius() const { return size <= 0.5 * voxel() ? 0 : 0.1 * voxel(); }
   double voxel() const { return std::min({image.spacing.x, image.spacing.y, image.spacing.z}); }
   friend void PrintTo(const PhantomCase& c, std::ostream* out) { *out << c.kind << " at size " << c.size; }
 };

@@ -19,7 +19,7 @@ TEST(CliCancel, CtrlCWhileMeshingExitsWith130AndLeavesNothing) {
   TemporaryFolder in, out;
   const std::string volume = make_sphere(in);
   for (int signal : {SIGINT, SIGTERM}) {
-    const Outcome outcome = run_delvox({"tet", volume, "--size", "0.2", "-o", out / "mesh.vtu", "-o", out / "mesh.stl"},
+    const Outcome outcome = run_delvox({"tet", volume, "--size", "0.4", "-o", out / "mesh.vtu", "-o", out / "mesh.stl"},
                                        {.signal = signal, .signal_after = "surface"});
     EXPECT_EQ(outcome.code, 130) << outcome.err;
     EXPECT_NE(outcome.err.find("cancelled"), std::string::npos) << outcome.err;
@@ -46,7 +46,7 @@ TEST(CliCancel, MaxSecondsBoundsTheSearchForANumberOfTets) {
   TemporaryFolder folder;
   const std::string volume = make_sphere(folder);
   const Outcome outcome = run_delvox(
-      {"tet", volume, "--tets", "100000000", "--max-seconds", "0.5", "-o", folder / "mesh.vtu", "--quiet"});
+      {"tet", volume, "--tets", "3000000", "--max-seconds", "0.5", "-o", folder / "mesh.vtu", "--quiet"});
   EXPECT_EQ(outcome.code, 5) << outcome.err;
   EXPECT_NE(outcome.err.find("--max-seconds"), std::string::npos) << outcome.err;
 }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "delvox/mesh_io/read_mesh.h"
+#include "delvox/volume/write_volume.h"
 #include "tools/run_delvox.h"
 
 namespace delvox::test {
@@ -112,8 +113,8 @@ TEST_F(CliMeshing, TheOtherFrameTurnsXAndY) {
 
 TEST_F(CliMeshing, WorldPointsOfFlagsAreInTheOutputFrame) {
   const std::string volume = phantom("sphere", {"--center", "10,20,30"});
-  const json ras = run({"tet", volume, "--size", "5", "--crop", "5:90,:,:mm", "--iso", "at:12,20,30", "-o", folder_ / "a.vtu"});
-  const json lps = run({"tet", volume, "--size", "5", "--crop", "-90:-5,:,:mm", "--iso", "at:-12,-20,30", "--frame", "lps",
+  const json ras = run({"tet", volume, "--size", "5", "--crop", "5:90,:,:mm", "--iso", "at:25,20,30", "-o", folder_ / "a.vtu"});
+  const json lps = run({"tet", volume, "--size", "5", "--crop", "-90:-5,:,:mm", "--iso", "at:-25,-20,30", "--frame", "lps",
                         "-o", folder_ / "b.vtu"});
   EXPECT_EQ(ras["isovalue"], lps["isovalue"]);
   EXPECT_EQ(ras["meshed_volume"]["dims"], lps["meshed_volume"]["dims"]);
@@ -131,11 +132,19 @@ TEST_F(CliMeshing, AnOpenBorderEndsWhereTheImageEnds) {
 
 TEST_F(CliMeshing, AVolumeCanBeTheSizeField) {
   const std::string volume = phantom("sphere");
-  const std::string ramp = folder_ / "ramp.nii";  // grows along a diagonal
-  ASSERT_EQ(run_delvox({"phantom", "ramp", "-o", ramp, "--quiet"}).code, 0);
-  EXPECT_EQ(run_delvox({"tet", volume, "--size", ramp, "-o", folder_ / "bad.vtu", "--quiet"}).code, 3);
-  const json report = run({"tet", volume, "--size", volume, "--iso", "at:20,0,0", "-o", folder_ / "mesh.vtu"});
-  EXPECT_GT(report["check"]["statistics"]["tets"], 0);
+  VolumeHeader header;
+  header.dims = {2, 1, 1};
+  header.frame = Frame::kRas;
+  header.index_to_world.rows[0] = {40, 0, 0, -20};
+  const std::string sizes = folder_ / "sizes.nii";  // from 3 mm at x = -20 to 9 mm at x = 20
+  write_volume(Volume(header, {3, 9}), sizes);
+  const json report = run({"tet", volume, "--size", sizes, "-o", folder_ / "mesh.vtu"});
+  EXPECT_EQ(report["mesh"]["promises"]["size_mm"], 9);
+  std::size_t left = 0, right = 0;
+  for (const Point3& p : points_of(folder_ / "mesh.vtu")) ++(p.x < 0 ? left : right);
+  EXPECT_GT(left, 3 * right);
+  // A signed distance cannot be a size.
+  EXPECT_EQ(run_delvox({"tet", volume, "--size", volume, "-o", folder_ / "bad.vtu", "--quiet"}).code, 3);
 }
 
 TEST_F(CliMeshing, SmallComponentsAreTakenOutAndCounted) {

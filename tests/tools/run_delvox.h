@@ -17,9 +17,9 @@ struct Outcome {
 struct RunSetup {
   std::filesystem::path folder = ".";   ///< where it runs
   std::size_t file_size_limit = 0;      ///< bytes, as ulimit -f; 0: none
-  std::string stdout_path;              ///< instead of being captured
+  std::string stdout_path = {};              ///< instead of being captured
   int signal = 0;                       ///< sent once its stderr contains `signal_after`
-  std::string signal_after;
+  std::string signal_after = {};
 };
 
 /// Runs the delvox program that was built with these tests.

@@ -16,6 +16,7 @@ namespace delvox {
 /// Full: adds crossing triangles, and, with a volume, everything that compares the mesh with the voxels.
 enum class CheckLevel { kCheap, kFull };
 
+/// What check_mesh holds a mesh to.
 struct CheckOptions {
   CheckLevel level = CheckLevel::kFull;
   std::optional<Promises> bounds;      ///< numeric bounds to test; default: those that the mesh carries
@@ -28,7 +29,9 @@ struct CheckOptions {
   bool require_voxel_topology = false;  ///< fail unless components and Euler number equal the volume's
 };
 
+/// How a check ended; kNotApplicable: there was nothing to hold the mesh to.
 enum class CheckStatus { kPassed, kFailed, kNotApplicable };
+/// "passed", "failed" or "not applicable".
 const char* to_string(CheckStatus status);
 
 /// One promise, put to the test.
@@ -60,6 +63,7 @@ struct ComponentStatistics {
   double area_mm2 = 0;
 };
 
+/// What a mesh is made of, and how good it is.
 struct MeshStatistics {
   std::size_t points = 0, tets = 0;
   std::size_t triangles = 0;          ///< of the surface, or of the boundary of the tets
@@ -84,6 +88,7 @@ struct VoxelComparison {
   double surface_to_mesh_max_mm = 0, surface_to_mesh_mean_mm = 0;
 };
 
+/// Everything that check_mesh found.
 struct CheckReport {
   std::vector<Check> checks;
   MeshStatistics statistics;

@@ -15,6 +15,7 @@ struct Point3 {
   double operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
   friend bool operator==(const Point3&, const Point3&) = default;
 };
+/// A difference of points.
 using Vector3 = Point3;
 
 inline Point3 operator+(const Point3& a, const Point3& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -86,6 +87,7 @@ Affine3 compose(const Affine3& outer, const Affine3& inner);
 /// The patient frame that world coordinates are stated in.
 /// RAS: +x right, +y anterior, +z superior (NIfTI). LPS: +x left, +y posterior (DICOM).
 enum class Frame { kUnknown, kRas, kLps };
+/// "RAS", "LPS" or "unknown".
 const char* to_string(Frame frame);
 
 /// Region of space as an oracle sees it: 0 is outside, for an isosurface 1 is inside.

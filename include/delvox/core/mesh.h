@@ -59,6 +59,7 @@ struct TetMesh {
   MeshInfo info;
 };
 
+/// What readers return, and writers and the checker take.
 using Mesh = std::variant<SurfaceMesh, TetMesh>;
 
 /// Faces that occur in exactly one tet, oriented outward, in the order of their tets.

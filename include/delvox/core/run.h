@@ -30,7 +30,9 @@ struct RunControl {
   const std::atomic<bool>* cancel = nullptr;          ///< set to true: the run throws Cancelled soon after
 };
 
+/// Why a run ended: of itself, or at one of its RunLimits.
 enum class StopReason { kFinished, kMaxVertices, kMaxSeconds };
+/// "finished", "max-vertices reached" or "max-seconds reached".
 const char* to_string(StopReason reason);
 
 /// A criterion that could not be met somewhere, with the first place where.

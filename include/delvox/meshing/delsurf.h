@@ -7,6 +7,7 @@
 
 namespace delvox {
 
+/// What delsurf is asked for.
 struct DelSurfOptions {
   SurfaceCriteria surface;
   RunControl control;

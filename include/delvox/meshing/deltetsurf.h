@@ -7,6 +7,7 @@
 
 namespace delvox {
 
+/// What deltetsurf is asked for.
 struct DelTetSurfOptions {
   SurfaceCriteria surface;
   TetCriteria tets;

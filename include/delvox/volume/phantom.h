@@ -60,6 +60,7 @@ PhantomTruth phantom_truth(std::string_view kind, const PhantomOptions& options)
 
 /// Samples a phantom, float32, frame RAS. The same kind and options give the same samples. Throws as phantom_truth.
 Volume make_phantom(std::string_view kind, const PhantomOptions& options);
+/// The same with the default options of the kind.
 Volume make_phantom(std::string_view kind);
 
 }  // namespace delvox

@@ -30,6 +30,7 @@ IndexBox index_box(const Volume& volume, const Box3& world);
 /// Throws OptionError: the text does not parse.
 IndexBox parse_crop(const Volume& volume, std::string_view text);
 
+/// How smooth() works.
 struct SmoothOptions {
   double sigma_mm = 0;  ///< standard deviation of the Gaussian; 0 leaves the volume as it is
 };
@@ -40,6 +41,7 @@ struct SmoothOptions {
 /// Throws OptionError: sigma negative, not finite, or beyond the extent of the image.
 Volume smooth(const Volume& volume, const SmoothOptions& options);
 
+/// How resample() works.
 struct ResampleOptions {
   double spacing_mm = 0;  ///< of the result along all three axes
   bool prefilter = true;  ///< smooth first along axes that get coarser

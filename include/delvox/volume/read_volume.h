@@ -7,6 +7,7 @@
 
 namespace delvox {
 
+/// What the file does not tell.
 struct ReadVolumeOptions {
   std::optional<Vector3> spacing;  ///< mm; replaces what a TIFF says or lacks; an error on formats that state theirs
   int volume_index = 0;            ///< which volume of a 4D file

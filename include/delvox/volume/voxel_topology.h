@@ -53,25 +53,30 @@ struct VoxelRegion {
   std::size_t parent = 0;       ///< index of the region around it; the outermost is its own
 };
 
+/// All regions of a padded volume.
 struct VoxelRegions {
   VoxelTopology topology;
   /// First the outermost region, then the inside components, then the cavities, each by falling volume.
   std::vector<VoxelRegion> regions;
 };
+/// Counts as count_topology does, and lists every region with its place and volume.
 VoxelRegions list_regions(const Volume& volume, const Isosurface& surface);
 
+/// Which regions filter_components changes.
 struct ComponentFilter {
   bool largest_only = false;     ///< keep the inside component with the largest volume
   double min_component_mm3 = 0;  ///< remove inside components, and fill cavities, of less than this
   bool fill_cavities = false;    ///< fill every cavity
 };
 
+/// What filter_components did.
 struct FilterReport {
   std::size_t kept_components = 0;
   std::size_t removed_components = 0, filled_cavities = 0;
   double removed_mm3 = 0, filled_mm3 = 0;
 };
 
+/// A volume with regions changed, and the account of it.
 struct FilteredVolume {
   Volume volume;  ///< the same samples, shared, if there was nothing to do
   FilterReport report;
