@@ -48,7 +48,9 @@ TEST(Mesh, BoundaryComesInTheOrderOfTheTets) {
   }
 }
 
-TEST(Mesh, NoTetsHaveNoBoundary) { EXPECT_TRUE(boundary_of({}).empty()); }
+TEST(Mesh, NoTetsHaveNoBoundary) {
+  EXPECT_TRUE(boundary_of({}).empty());
+}
 
 TEST(Mesh, BoundarySurfaceLeavesOutInteriorPointsAndKeepsTheTriangles) {
   TetMesh cubes = test::cube_mesh(3, 0.5, {1, 2, 3});

@@ -14,7 +14,9 @@ namespace {
 using ExactKernel = CGAL::Simple_cartesian<CGAL::Exact_rational>;
 using ExactPoint = ExactKernel::Point_3;
 
-ExactPoint exact(const Point3& p) { return {p.x, p.y, p.z}; }
+ExactPoint exact(const Point3& p) {
+  return {p.x, p.y, p.z};
+}
 bool coplanar(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
   return CGAL::coplanar(exact(a), exact(b), exact(c), exact(d));
 }

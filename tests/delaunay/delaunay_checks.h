@@ -13,7 +13,9 @@ namespace delvox::test {
 
 using ExactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-inline ExactKernel::Point_3 cgal(const Point3& p) { return {p.x, p.y, p.z}; }
+inline ExactKernel::Point_3 cgal(const Point3& p) {
+  return {p.x, p.y, p.z};
+}
 
 inline bool finite(const RestrictedDelaunay& delaunay, CellId cell) {
   const auto& v = delaunay.vertices(cell);
@@ -81,8 +83,8 @@ inline void expect_true_cells(const RestrictedDelaunay& delaunay, const Oracle& 
       return;
     }
     const auto& v = delaunay.vertices(c);
-    const Circumsphere sphere = circumsphere(delaunay.point(v[3]), delaunay.point(v[2]), delaunay.point(v[0]),
-                                             delaunay.point(v[1]));
+    const Circumsphere sphere =
+        circumsphere(delaunay.point(v[3]), delaunay.point(v[2]), delaunay.point(v[0]), delaunay.point(v[1]));
     EXPECT_LE(distance(sphere.center, cell.sphere.center), 2e-9 * std::sqrt(sphere.squared_radius) + 1e-15);
     EXPECT_NEAR(cell.sphere.squared_radius / sphere.squared_radius, 1, 2e-9);
     EXPECT_EQ(cell.label, oracle.label(cell.sphere.center));
@@ -116,7 +118,8 @@ inline std::size_t expect_true_balls(const RestrictedDelaunay& delaunay, const S
                                      bool all_vertices) {
   std::set<VertexId> vertices;
   if (all_vertices) {
-    for_each_cell(delaunay, [&](CellId c) { vertices.insert(delaunay.vertices(c).begin(), delaunay.vertices(c).end()); });
+    for_each_cell(delaunay,
+                  [&](CellId c) { vertices.insert(delaunay.vertices(c).begin(), delaunay.vertices(c).end()); });
     vertices.erase(kNone);
   }
   std::size_t count = 0;

@@ -38,7 +38,9 @@ struct Placement {
   Point3 (*next)(Random& random);
 };
 
-Point3 anywhere(Random& random) { return random.in(kBox); }
+Point3 anywhere(Random& random) {
+  return random.in(kBox);
+}
 /// Points of a 9^3 lattice: any cube of it is cospherical, any plane coplanar.
 Point3 on_lattice(Random& random) {
   const auto coordinate = [&] { return 0.1875 * random.below(9) - 0.75; };
@@ -49,7 +51,9 @@ Point3 in_one_plane(Random& random) {
   p.z = random.below(10) == 0 ? p.z : 0.125;
   return p;
 }
-Point3 on_one_sphere(Random& random) { return 0.7 * random.direction(); }
+Point3 on_one_sphere(Random& random) {
+  return 0.7 * random.direction();
+}
 /// Dense clusters down to 1e-7 of the box, whose circumspheres the filter must not trust.
 Point3 clustered(Random& random) {
   static const Point3 centers[3] = {{0.5, 0.5, 0.5}, {-0.3, 0.2, 0.1}, {0.1, -0.6, -0.2}};
@@ -90,7 +94,8 @@ class Workout {
   void insert() {
     const Point3 p = place_(random_);
     const Star& star = delaunay_.evaluate(p, delaunay_.created()[random_.below(int(delaunay_.created().size()))]);
-    const bool known = std::any_of(present_.begin(), present_.end(), [&](VertexId v) { return delaunay_.point(v) == p; });
+    const bool known =
+        std::any_of(present_.begin(), present_.end(), [&](VertexId v) { return delaunay_.point(v) == p; });
     ASSERT_EQ(star.duplicate, known);
     if (known) {
       EXPECT_TRUE(star.zone.empty());
@@ -133,7 +138,8 @@ class Workout {
       EXPECT_EQ(delaunay_.cell(created[i]).sphere.squared_radius, tet.sphere.squared_radius);
       EXPECT_EQ(delaunay_.cell(created[i]).label, tet.label);
       EXPECT_GT(test::signed_volume(star.apex, delaunay_.point(tet.vertices[0]), delaunay_.point(tet.vertices[1]),
-                                    delaunay_.point(tet.vertices[2])), 0);
+                                    delaunay_.point(tet.vertices[2])),
+                0);
     }
   }
 
@@ -195,8 +201,11 @@ TEST_P(RestrictedDelaunaySuite, IsTheSameOnASecondRun) {
 }
 
 TEST(RestrictedDelaunay, StaysDelaunayFarFromTheOriginAndAtTinyAndHugeScales) {
-  for (const auto& [scale, shift] : {std::pair{1.0, Point3{1e5, -3e5, 2e5}}, {1e-3, Point3{10, 20, 30}},
-                                     {1e5, Point3{}}, {1.0, Point3{1e8, 1e8, -1e8}}, {1e-3, Point3{}}}) {
+  for (const auto& [scale, shift] : {std::pair{1.0, Point3{1e5, -3e5, 2e5}},
+                                     {1e-3, Point3{10, 20, 30}},
+                                     {1e5, Point3{}},
+                                     {1.0, Point3{1e8, 1e8, -1e8}},
+                                     {1e-3, Point3{}}}) {
     const auto oracle = two_balls(scale, shift);
     RestrictedDelaunay delaunay(*oracle);
     Random random(5);
@@ -211,8 +220,8 @@ TEST(RestrictedDelaunay, StaysDelaunayFarFromTheOriginAndAtTinyAndHugeScales) {
   }
 }
 
-// The rounding of a circumcentre grows with its coordinates, not with the box: a filter that forgets this trusts spheres
-// that are too small.
+// The rounding of a circumcentre grows with its coordinates, not with the box: a filter that forgets this trusts
+// spheres that are too small.
 TEST(RestrictedDelaunay, StaysDelaunayInAClusterFarFromTheOrigin) {
   const Point3 shift{1e8, -1e8, 1e8};
   const auto oracle = two_balls(1, shift);

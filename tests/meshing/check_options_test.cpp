@@ -21,9 +21,7 @@ std::vector<std::function<void(SurfaceCriteria&)>> bad_surface_criteria() {
   for (double value : {0.0, -1.0, kNan}) {
     bad.push_back([=](SurfaceCriteria& c) { c.size = value; });
     bad.push_back([=](SurfaceCriteria& c) { c.max_deviation = value; });
-    bad.push_back([=](SurfaceCriteria& c) {
-      c.size = SizeField([](const Point3&) { return 1.0; }, value, 2.0);
-    });
+    bad.push_back([=](SurfaceCriteria& c) { c.size = SizeField([](const Point3&) { return 1.0; }, value, 2.0); });
   }
   for (double value : {31.0, 30.001, -0.001, kNan}) {
     bad.push_back([=](SurfaceCriteria& c) { c.min_angle_degrees = value; });

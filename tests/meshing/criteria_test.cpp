@@ -113,7 +113,8 @@ TEST(Criteria, AnglesReachTheBoundThatIsAskedFor) {
     const SurfaceMesh mesh = mesh_sphere(criteria);
     double smallest = 60;
     for (const Triangle& t : mesh.triangles) {
-      smallest = std::min(smallest, test::smallest_angle_degrees(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
+      smallest =
+          std::min(smallest, test::smallest_angle_degrees(mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]));
     }
     EXPECT_GE(smallest, angle - 1e-9);
     EXPECT_GE(mesh.triangles.size(), before);

@@ -14,7 +14,8 @@ class DelTetSurfOnPhantoms : public testing::TestWithParam<PhantomCase> {};
 
 INSTANTIATE_TEST_SUITE_P(
     Phantoms, DelTetSurfOnPhantoms,
-    testing::Values(PhantomCase{"sphere", test::cubic_image(32), 2}, PhantomCase{"ellipsoid", test::cubic_image(32), 1.5},
+    testing::Values(PhantomCase{"sphere", test::cubic_image(32), 2},
+                    PhantomCase{"ellipsoid", test::cubic_image(32), 1.5},
                     PhantomCase{"torus", test::cubic_image(32), 1.2}, PhantomCase{"shells", test::cubic_image(28), 1.5},
                     PhantomCase{"touching-balls", test::cubic_image(32), 1.2},
                     PhantomCase{"plate", test::cubic_image(28), 0.8}, PhantomCase{"rod", test::cubic_image(28), 0.8},

@@ -47,8 +47,9 @@ Interpolated interpolate(const Volume& volume, const Point3& u) {
     }
     const double sample = volume.value(at[0], at[1], at[2]);
     result.value += weight[0] * weight[1] * weight[2] * sample;
-    result.gradient = result.gradient + sample * Vector3{slope[0] * weight[1] * weight[2], weight[0] * slope[1] * weight[2],
-                                                         weight[0] * weight[1] * slope[2]};
+    result.gradient =
+        result.gradient + sample * Vector3{slope[0] * weight[1] * weight[2], weight[0] * slope[1] * weight[2],
+                                           weight[0] * weight[1] * slope[2]};
   }
   return result;
 }

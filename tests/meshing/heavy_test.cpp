@@ -38,7 +38,9 @@ TEST(Heavy, ASphereOfHundredsOfThousandsOfTetsKeepsEveryPromise) {
   expect_everything({"sphere", test::cubic_image(64), 0.6});
 }
 
-TEST(Heavy, AGyroidAtHalfAVoxelHasTheTopologyOfItsVoxels) { expect_everything({"gyroid", test::cubic_image(40), 0.5}); }
+TEST(Heavy, AGyroidAtHalfAVoxelHasTheTopologyOfItsVoxels) {
+  expect_everything({"gyroid", test::cubic_image(40), 0.5});
+}
 
 /// Noise at half a voxel with no smallest ball: the mesh's topology and that of the voxels.
 void compare_noise(std::uint64_t seed, test::SurfaceTopology& mesh, VoxelTopology& voxels) {

@@ -47,7 +47,7 @@ inline TetShape shape_of(const TetMesh& mesh, const Tet& tet) {
   const Vector3 u = mesh.points[tet[1]] - a, v = mesh.points[tet[2]] - a, w = mesh.points[tet[3]] - a;
   const double six_volumes = dot(cross(u, v), w);
   const Vector3 offset = (0.5 / six_volumes) * (squared_norm(u) * cross(v, w) + squared_norm(v) * cross(w, u) +
-                                               squared_norm(w) * cross(u, v));
+                                                squared_norm(w) * cross(u, v));
   double shortest = Box3::kInfinity;
   for (int i = 0; i < 4; ++i) {
     for (int j = 0; j < i; ++j) shortest = std::min(shortest, distance(mesh.points[tet[i]], mesh.points[tet[j]]));

@@ -16,7 +16,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 /// A run that would take minutes if nothing stopped it, but whose seeds are few.
 DelTetSurfOptions endless_options() {
@@ -26,7 +28,9 @@ DelTetSurfOptions endless_options() {
   return options;
 }
 
-std::unique_ptr<SmoothOracle> sphere() { return test::voxel_phantom_oracle("sphere", test::cubic_image(32)); }
+std::unique_ptr<SmoothOracle> sphere() {
+  return test::voxel_phantom_oracle("sphere", test::cubic_image(32));
+}
 
 TEST(RunControl, MaxVerticesStopsTheTetsWithWhatThereIs) {
   DelTetSurfOptions options = endless_options();

@@ -31,7 +31,7 @@ TEST(BracketedRoot, FindsRootsOfTameAndNastyFunctionsFromEitherEnd) {
       {[](double t) { return std::cos(t) - t; }, 0.7390851332151607, 1e-15},
       {[](double t) { return std::exp(30 * t) - std::exp(6.0); }, 0.2, 1e-14},
       {[](double t) { return std::cbrt(t - 0.25); }, 0.25, 1e-15},
-      {[](double t) { return 1e-12 * (t - 0.6); }, 0.6, 1e-3},   // flat: down to rounding noise of scale 1 at once
+      {[](double t) { return 1e-12 * (t - 0.6); }, 0.6, 1e-3},     // flat: down to rounding noise of scale 1 at once
       {[](double t) { return std::pow(t - 0.4, 5); }, 0.4, 2e-3},  // |f| <= noise
   };
   for (std::size_t i = 0; i < cases.size(); ++i) {

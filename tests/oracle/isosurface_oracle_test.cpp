@@ -136,14 +136,16 @@ TEST(IsosurfaceOracle, LinesAlongGridLinesPlanesAndDiagonalsThroughGridVerticesC
   image.center = {8, 8, 8};  // world = index
   const auto oracle = make_isosurface_oracle(make_phantom("noisy-sphere", image), {0, false});
   test::Random random(3);
-  const auto lattice = [&] { return Point3{double(random.below(17)), double(random.below(17)), double(random.below(17))}; };
+  const auto lattice = [&] {
+    return Point3{double(random.below(17)), double(random.below(17)), double(random.below(17))};
+  };
   std::size_t total = 0;
   for (int n = 0; n < 600; ++n) {
     const Point3 from = lattice();
     Point3 to = from;
     switch (n % 4) {
-      case 0: to[random.below(3)] = random.below(17); break;  // along a grid line
-      case 1: to = from + double(random.below(8)) * Vector3{1, 1, 1}; break;  // through grid vertices
+      case 0: to[random.below(3)] = random.below(17); break;                   // along a grid line
+      case 1: to = from + double(random.below(8)) * Vector3{1, 1, 1}; break;   // through grid vertices
       case 2: to = from + double(random.below(8)) * Vector3{1, -1, 0}; break;  // through grid edges, in a plane
       default: to = lattice();
     }

@@ -43,13 +43,13 @@ class OracleSuite : public testing::TestWithParam<Maker> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(
-    Oracles, OracleSuite,
-    testing::Values(Maker{"Voxels", test::cubic_image(32), test::voxel_phantom_oracle, 0.05},
-                    Maker{"ObliqueVoxels", test::oblique_image(), test::voxel_phantom_oracle, 0.08},
-                    Maker{"Formula", test::cubic_image(32), make_implicit, 1e-9},
-                    Maker{"FormulaAwayFromOrigin", test::oblique_image(), make_implicit, 1e-9}),
-    [](const auto& info) { return std::string(info.param.name); });
+INSTANTIATE_TEST_SUITE_P(Oracles, OracleSuite,
+                         testing::Values(Maker{"Voxels", test::cubic_image(32), test::voxel_phantom_oracle, 0.05},
+                                         Maker{"ObliqueVoxels", test::oblique_image(), test::voxel_phantom_oracle,
+                                               0.08},
+                                         Maker{"Formula", test::cubic_image(32), make_implicit, 1e-9},
+                                         Maker{"FormulaAwayFromOrigin", test::oblique_image(), make_implicit, 1e-9}),
+                         [](const auto& info) { return std::string(info.param.name); });
 
 TEST_P(OracleSuite, LabelsInsideOutsideAndFarAway) {
   const auto oracle = make("sphere");

@@ -44,12 +44,14 @@ TEST(PoissonThinning, EqualsBruteForceForSpacingsOverManyOctaves) {
 }
 
 TEST(PoissonThinning, KeepsOneOfSeveralEqualPointsAndPointsExactlyAtTheSpacing) {
-  const std::vector<SpacedPoint> candidates{
-      {{0, 0, 0}, 1}, {{0, 0, 0}, 1}, {{1, 0, 0}, 1}, {{0.5, 0, 0}, 1}, {{-1, 0, 0}, 1}, {{-1.5, 0, 0}, 0.5}};
+  const std::vector<SpacedPoint> candidates{{{0, 0, 0}, 1},   {{0, 0, 0}, 1},  {{1, 0, 0}, 1},
+                                            {{0.5, 0, 0}, 1}, {{-1, 0, 0}, 1}, {{-1.5, 0, 0}, 0.5}};
   EXPECT_EQ(thin_poisson(candidates), (std::vector<std::uint32_t>{0, 2, 4, 5}));
 }
 
-TEST(PoissonThinning, OfNothingIsNothing) { EXPECT_TRUE(thin_poisson({}).empty()); }
+TEST(PoissonThinning, OfNothingIsNothing) {
+  EXPECT_TRUE(thin_poisson({}).empty());
+}
 
 TEST(PoissonThinning, WorksFarFromTheOrigin) {
   test::Random random(3);

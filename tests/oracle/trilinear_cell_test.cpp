@@ -85,7 +85,8 @@ TEST(TrilinearCell, FaceSaddleIsWhereBothSlopesVanish) {
   test::Random random(2);
   int found = 0;
   for (int n = 0; n < 1000; ++n) {
-    const double a = random.between(-1, 1), b = random.between(-1, 1), c = random.between(-1, 1), d = random.between(-1, 1);
+    const double a = random.between(-1, 1), b = random.between(-1, 1), c = random.between(-1, 1),
+                 d = random.between(-1, 1);
     const auto saddle = face_saddle(a, b, c, d);
     if (!saddle) continue;
     ++found;

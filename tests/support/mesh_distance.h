@@ -44,7 +44,8 @@ inline double one_sided_distance(const SurfaceMesh& from, const SurfaceMesh& to)
     triangles.push_back({center, std::max({distance(center, a), distance(center, b), distance(center, c)}), &t});
   }
   // Sorted by x, so that a search can stop once triangles are too far along it.
-  std::sort(triangles.begin(), triangles.end(), [](const Bounded& a, const Bounded& b) { return a.center.x < b.center.x; });
+  std::sort(triangles.begin(), triangles.end(),
+            [](const Bounded& a, const Bounded& b) { return a.center.x < b.center.x; });
   double widest = 0;
   for (const Bounded& t : triangles) widest = std::max(widest, t.radius);
   double largest = 0;

@@ -1,0 +1,114 @@
+#include "meshing/umbrella.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "meshing/extract.h"
+#include "meshing/pieces.h"
+#include "support/random.h"
+#include "support/shapes.h"
+#include "support/surface_measures.h"
+
+// Umbrellas, pieces and extraction on triangulations of random points, whose restricted complexes are anything but
+// manifold.
+
+namespace delvox {
+namespace {
+
+class RandomComplex : public testing::TestWithParam<std::uint64_t> {
+ protected:
+  RandomComplex() {
+    test::Random random(GetParam());
+    std::vector<Point3> points;
+    for (int n = 0; n < 250; ++n) points.push_back(random.in({{-15, -15, -15}, {15, 15, 15}}));
+    delaunay_.insert_seeds(points);
+  }
+
+  bool alive(CellId cell) const { return delaunay_.cell(cell).stamp != 0; }
+
+  std::unique_ptr<SmoothOracle> oracle_ = test::voxel_phantom_oracle("shells", test::cubic_image(32));
+  RestrictedDelaunay delaunay_{*oracle_};
+};
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomComplex, testing::Values(1, 2, 3));
+
+TEST_P(RandomComplex, UmbrellasHoldTheRestrictedTrianglesAtAVertexAndTellWhetherTheyAreOneFan) {
+  const SurfaceMesh mesh = extract_surface(delaunay_);
+  std::map<std::array<double, 3>, std::vector<Triangle>> around;
+  for (const Triangle& t : mesh.triangles) {
+    for (std::uint32_t v : t) around[{mesh.points[v].x, mesh.points[v].y, mesh.points[v].z}].push_back(t);
+  }
+  int disks = 0, others = 0;
+  for (VertexId v = 4; v < delaunay_.vertex_capacity(); ++v) {
+    const Point3& p = delaunay_.point(v);
+    const auto& triangles = around[{p.x, p.y, p.z}];
+    const Umbrella umbrella = find_umbrella(delaunay_, v);
+    ASSERT_EQ(umbrella.facets.size(), triangles.size());
+    for (const FacetId& facet : umbrella.facets) EXPECT_TRUE(delaunay_.bipolar(facet));
+    // One fan: every other corner is in exactly two of the triangles, and they hang together around the vertex.
+    std::map<std::uint32_t, std::vector<std::uint32_t>> link;
+    for (const Triangle& t : triangles) {
+      for (int i = 0; i < 3; ++i) {
+        if (mesh.points[t[i]] != p) continue;
+        link[t[(i + 1) % 3]].push_back(t[(i + 2) % 3]);
+        link[t[(i + 2) % 3]].push_back(t[(i + 1) % 3]);
+      }
+    }
+    bool disk = std::all_of(link.begin(), link.end(), [](const auto& entry) { return entry.second.size() == 2; });
+    std::set<std::uint32_t> reached;
+    std::vector<std::uint32_t> stack;
+    if (!link.empty()) stack.push_back(link.begin()->first);
+    while (!stack.empty()) {
+      const std::uint32_t at = stack.back();
+      stack.pop_back();
+      if (reached.insert(at).second) stack.insert(stack.end(), link[at].begin(), link[at].end());
+    }
+    disk &= reached.size() == link.size();
+    EXPECT_EQ(umbrella.disk, disk);
+    (disk ? disks : others) += 1;
+  }
+  EXPECT_GT(disks, 5);
+  EXPECT_GT(others, 5);
+}
+
+TEST_P(RandomComplex, PiecesAreTheCellsOfOneLabelThatFacetsJoin) {
+  test::detail::UnionFind expected(delaunay_.cell_capacity());
+  for (CellId c = 0; c < delaunay_.cell_capacity(); ++c) {
+    for (CellId n : delaunay_.neighbors(c)) {
+      if (delaunay_.cell(c).label == delaunay_.cell(n).label) expected.join(c, n);
+    }
+  }
+  const std::vector<CellId> starts{0, delaunay_.created().back()};
+  const Pieces pieces = find_pieces(delaunay_, starts);
+  std::map<std::size_t, std::uint32_t> piece_of_root;
+  for (CellId c = 0; c < delaunay_.cell_capacity(); ++c) {
+    ASSERT_TRUE(alive(c));
+    ASSERT_LT(pieces.of_cell[c], pieces.count);
+    const auto [entry, is_new] = piece_of_root.try_emplace(expected.root(c), pieces.of_cell[c]);
+    EXPECT_EQ(entry->second, pieces.of_cell[c]);
+  }
+  EXPECT_EQ(piece_of_root.size(), pieces.count);
+  std::set<std::uint32_t> started;
+  for (CellId start : starts) started.insert(pieces.of_cell[start]);
+  EXPECT_EQ(started.size(), pieces.reached);
+  for (std::uint32_t piece : started) EXPECT_LT(piece, pieces.reached);
+}
+
+TEST_P(RandomComplex, ExtractionGivesTheInsideCellsAndTheirBoundary) {
+  const TetMesh mesh = extract_tets(delaunay_);
+  std::size_t inside = 0;
+  for (CellId c = 0; c < delaunay_.cell_capacity(); ++c) inside += alive(c) && delaunay_.cell(c).label != 0;
+  EXPECT_EQ(mesh.tets.size(), inside);
+  EXPECT_EQ(mesh.regions.size(), inside);
+  EXPECT_EQ(mesh.boundary.size(), boundary_of(mesh.tets).size());
+  const SurfaceMesh surface = extract_surface(delaunay_);
+  EXPECT_EQ(surface.triangles.size(), mesh.boundary.size());
+  EXPECT_NEAR(test::enclosed_volume(surface), test::enclosed_volume(boundary_surface(mesh)), 1e-9);
+  EXPECT_GT(test::enclosed_volume(surface), 0);
+}
+
+}  // namespace
+}  // namespace delvox
