@@ -22,7 +22,7 @@ INSTANTIATE_TEST_SUITE_P(
                     PhantomCase{"border", test::cubic_image(28), 1.5}, PhantomCase{"ramp", test::cubic_image(14), 1.2},
                     PhantomCase{"gyroid", test::cubic_image(20), 0.5},
                     PhantomCase{"noisy-sphere", test::with_noise(test::cubic_image(12), 0.7), 0.5},
-                    PhantomCase{"random", test::cubic_image(7), 0.5}),
+                    PhantomCase{"random", test::cubic_image(7), 0.5, 1.3}),
     [](const auto& info) { return test::test_name(info.param); });
 
 TEST_P(DelTetSurfOnPhantoms, GivesPositiveTetsInAManifoldOfTheRightTopologyWithinAllBoundsTwiceAlike) {
@@ -31,7 +31,7 @@ TEST_P(DelTetSurfOnPhantoms, GivesPositiveTetsInAManifoldOfTheRightTopologyWithi
   const auto oracle = make_isosurface_oracle(volume, c.isosurface());
   DelTetSurfOptions options;
   options.surface.size = c.size;
-  options.surface.min_ball_radius = 0.1 * c.voxel();
+  options.surface.min_ball_radius = c.min_ball_radius();
   options.tets.cell_size = c.size;
   RunReport report;
   const TetMesh mesh = deltetsurf(*oracle, options, report);
@@ -50,10 +50,10 @@ TEST_P(DelTetSurfOnPhantoms, GivesPositiveTetsInAManifoldOfTheRightTopologyWithi
   EXPECT_EQ(found.components, voxels.surface_components);
   EXPECT_EQ(found.euler, voxels.euler);
   const PhantomTruth truth = phantom_truth(c.kind, c.image);
-  if (truth.components) {
+  if (truth.components && !c.isovalue) {
     EXPECT_EQ(found.components, static_cast<std::size_t>(*truth.components));
   }
-  if (truth.euler) {
+  if (truth.euler && !c.isovalue) {
     EXPECT_EQ(found.euler, *truth.euler);
   }
 

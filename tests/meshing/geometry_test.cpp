@@ -104,7 +104,7 @@ TEST(Geometry, NodesOfAPlaneRampLieOnThePlane) {
       ++on_plane;
       ASSERT_LE(std::abs(dot(normal, p - image.center)), 1e-6 * voxel);
     }
-    EXPECT_GT(on_plane, 100);
+    EXPECT_GT(on_plane, 50);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -15,9 +16,12 @@ struct PhantomCase {
   std::string kind;
   PhantomOptions image;
   double size;
+  std::optional<double> isovalue = std::nullopt;  ///< where not at the phantom's own
 
   Volume volume() const { return make_phantom(kind, image); }
-  Isosurface isosurface() const { return {phantom_truth(kind, image).isovalue, false}; }
+  Isosurface isosurface() const { return {isovalue.value_or(phantom_truth(kind, image).isovalue), false}; }
+  /// Where the topology of every voxel is asked for, necks of any width count.
+  double min_ball_radius() const { return size <= 0.5 * voxel() ? 0 : 0.1 * voxel(); }
   double voxel() const { return std::min({image.spacing.x, image.spacing.y, image.spacing.z}); }
   friend void PrintTo(const PhantomCase& c, std::ostream* out) { *out << c.kind << " at size " << c.size; }
 };
