@@ -10,7 +10,8 @@
 namespace delvox {
 
 /// A map from 64-bit keys to 32-bit numbers by open addressing: a fraction of std::unordered_map's time, because
-/// entries lie side by side. Keys are never removed; kEmptyKey is not a key.
+/// entries lie side by side, and those whose keys differ in their low bits only lie near each other. Keys are never
+/// removed; kEmptyKey is not a key.
 class FlatHash {
  public:
   static constexpr std::uint64_t kEmptyKey = ~0ull;
@@ -34,6 +35,7 @@ class FlatHash {
   }
 
  private:
+  static constexpr int kNearBits = 11;
   struct Slot {
     std::uint64_t key = kEmptyKey;
     std::uint32_t number = kAbsent;
@@ -41,7 +43,7 @@ class FlatHash {
 
   std::size_t place(std::uint64_t key) const {
     const std::size_t mask = slots_.size() - 1;
-    std::size_t i = mix_hash(key) & mask;
+    std::size_t i = (mix_hash(key >> kNearBits) + (key & ((1u << kNearBits) - 1))) & mask;
     while (slots_[i].key != kEmptyKey && slots_[i].key != key) i = (i + 1) & mask;
     return i;
   }

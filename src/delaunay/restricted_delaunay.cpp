@@ -40,13 +40,13 @@ std::array<VertexId, 3> RestrictedDelaunay::vertices(FacetId facet) const {
 const std::vector<CellId>& RestrictedDelaunay::incident_cells(VertexId vertex) const {
   epoch_ += 2;
   around_.assign(1, kernel_->cell_of(vertex));
-  visited_[around_.front()] = epoch_;
+  cells_[around_.front()].visited = epoch_;
   for (std::size_t next = 0; next < around_.size(); ++next) {
     const auto& v = kernel_->vertices(around_[next]);
     const auto n = kernel_->neighbors(around_[next]);
     for (int i = 0; i < 4; ++i) {
-      if (v[i] == vertex || visited_[n[i]] == epoch_) continue;
-      visited_[n[i]] = epoch_;
+      if (v[i] == vertex || cells_[n[i]].visited == epoch_) continue;
+      cells_[n[i]].visited = epoch_;
       around_.push_back(n[i]);
     }
   }
@@ -63,10 +63,7 @@ void RestrictedDelaunay::name_vertex(VertexId vertex, const Point3& p, VertexKin
 }
 
 void RestrictedDelaunay::ensure_cell(CellId cell) {
-  if (cell < cells_.size()) return;
-  cells_.resize(cell + 1);
-  cell_balls_.resize(cell + 1, {-1, -1, -1, -1});
-  visited_.resize(cell + 1, 0);
+  if (cell >= cells_.size()) cells_.resize(cell + 1);
 }
 
 void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds) {
@@ -86,15 +83,18 @@ void RestrictedDelaunay::describe_cell(CellId cell) {
   Cell& data = cells_[cell];
   data = Cell{};
   data.stamp = next_stamp_++;
-  cell_balls_[cell] = {-1, -1, -1, -1};
   if (!kernel_->finite(cell)) return;
   const auto& v = vertices(cell);
   data.sphere = circumsphere(points_[v[0]], points_[v[1]], points_[v[2]], points_[v[3]]);
   data.label = oracle_.label(data.sphere.center);
 }
 
+bool RestrictedDelaunay::bipolar(FacetId facet) const {
+  return cells_[facet.cell].label != cells_[kernel_->neighbors(facet.cell)[facet.index]].label;
+}
+
 const SurfaceBall* RestrictedDelaunay::ball(FacetId facet) const {
-  const std::int32_t index = cell_balls_[facet.cell][facet.index];
+  const std::int32_t index = cells_[facet.cell].balls[facet.index];
   return index < 0 ? nullptr : &balls_[index];
 }
 
@@ -123,10 +123,10 @@ const SurfaceBall& RestrictedDelaunay::compute_ball(FacetId facet) {
   return balls_[index];
 }
 
-void RestrictedDelaunay::set_ball(FacetId facet, std::int32_t ball) { cell_balls_[facet.cell][facet.index] = ball; }
+void RestrictedDelaunay::set_ball(FacetId facet, std::int32_t ball) { cells_[facet.cell].balls[facet.index] = ball; }
 
 void RestrictedDelaunay::drop_ball(FacetId facet) {
-  const std::int32_t index = cell_balls_[facet.cell][facet.index];
+  const std::int32_t index = cells_[facet.cell].balls[facet.index];
   if (index < 0) return;
   free_balls_.push_back(index);
   set_ball(facet, -1);
@@ -162,18 +162,18 @@ void RestrictedDelaunay::find_zone(const Point3& p, CellId start) {
   }
   // Two marks per search: even epochs for cells in conflict, odd ones for cells found not to be.
   epoch_ += 2;
-  visited_[start] = epoch_;
+  cells_[start].visited = epoch_;
   star_.zone.push_back(start);
   for (std::size_t next = 0; next < star_.zone.size(); ++next) {
     const CellId cell = star_.zone[next];
     for (int i = 0; i < 4; ++i) {
       const CellId neighbor = kernel_->neighbors(cell)[i];
-      if (visited_[neighbor] != epoch_ && visited_[neighbor] != epoch_ + 1) {
+      if (cells_[neighbor].visited != epoch_ && cells_[neighbor].visited != epoch_ + 1) {
         const bool conflict = in_conflict(neighbor, p);
-        visited_[neighbor] = conflict ? epoch_ : epoch_ + 1;
+        cells_[neighbor].visited = conflict ? epoch_ : epoch_ + 1;
         if (conflict) star_.zone.push_back(neighbor);
       }
-      if (visited_[neighbor] != epoch_) inner_facets_.push_back({cell, i});
+      if (cells_[neighbor].visited != epoch_) inner_facets_.push_back({cell, i});
     }
   }
 }
@@ -206,7 +206,7 @@ VertexId RestrictedDelaunay::commit(VertexKind kind) {
   }
   for (CellId cell : star_.zone) {
     for (int i = 0; i < 4; ++i) {
-      if (visited_[kernel_->neighbors(cell)[i]] == epoch_) drop_ball({cell, i});
+      if (cells_[kernel_->neighbors(cell)[i]].visited == epoch_) drop_ball({cell, i});
     }
     cells_[cell].stamp = 0;
   }
@@ -216,8 +216,8 @@ VertexId RestrictedDelaunay::commit(VertexKind kind) {
     const Star::Tet& tet = star_.tets[i];
     ensure_cell(created_[i]);
     cells_[created_[i]] = {tet.sphere, tet.label, next_stamp_++};
-    cell_balls_[created_[i]] = {-1, -1, -1, -1};
-    set_ball(mirror(tet.outer), cell_balls_[tet.outer.cell][tet.outer.index]);
+    const std::int32_t kept = cells_[tet.outer.cell].balls[tet.outer.index];
+    if (kept >= 0) set_ball(mirror(tet.outer), kept);
   }
   return vertex;
 }

@@ -21,11 +21,13 @@ struct SurfaceBall {
   double squared_radius = 0;
 };
 
-/// What Del S knows of a cell beside its vertices: its Voronoi vertex and the region that lies in.
-struct Cell {
+/// What Del S knows of a cell beside its vertices: its Voronoi vertex and the region that lies in. One cache line.
+struct alignas(64) Cell {
   Circumsphere sphere;
   Label label = 0;          ///< of the circumcentre; cells with a corner vertex are outside
-  std::uint32_t stamp = 0;  ///< changes whenever the number is given to another cell
+  std::uint32_t stamp = 0;  ///< changes whenever the number is given to another cell; 0: not in use
+  std::array<std::int32_t, 4> balls{-1, -1, -1, -1};  ///< number of each facet's surface ball, -1: none computed
+  mutable std::uint32_t visited = 0;                  ///< epoch of the last search that met the cell
 };
 
 /// The tetrahedra that inserting a point would make, known before anything is changed.
@@ -73,7 +75,7 @@ class RestrictedDelaunay {
   CellId locate(const Point3& p, CellId hint) const;
 
   /// Is the facet's dual edge bipolar?
-  bool bipolar(FacetId facet) const { return cells_[facet.cell].label != cells_[mirror(facet).cell].label; }
+  bool bipolar(FacetId facet) const;
   /// The ball if it has been computed, else nullptr. Only bipolar facets have one.
   const SurfaceBall* ball(FacetId facet) const;
   /// Computes and keeps the surface Delaunay ball. pre: bipolar(facet).
@@ -107,8 +109,6 @@ class RestrictedDelaunay {
   const Oracle& oracle_;
   std::unique_ptr<Kernel> kernel_;
   std::vector<Cell> cells_;
-  std::vector<std::array<std::int32_t, 4>> cell_balls_;  // index into balls_ per facet, -1: none
-  mutable std::vector<std::uint32_t> visited_;           // epoch of the last search that saw the cell
   std::vector<Point3> points_;
   std::vector<VertexKind> kinds_;
   std::vector<SurfaceBall> balls_;

@@ -138,7 +138,8 @@ class Reader {
   /// A product that cannot overflow; what is too large for the file stays too large.
   std::int64_t times(std::int64_t count, std::int64_t factor) const {
     const auto limit = static_cast<std::int64_t>(source_.bytes.size()) + 1;
-    if (count < 0 || factor < 0 || count > limit || factor > limit) source_.fail("claims more numbers than it can hold");
+    const bool possible = count >= 0 && factor >= 0 && count <= limit && factor <= limit;
+    if (!possible) source_.fail("claims more numbers than it can hold");
     return count * factor;
   }
 

@@ -13,6 +13,9 @@ namespace {
 
 // No zlib stream expands further than this: a block that claims to is lying.
 constexpr std::uint64_t kMostExpansion = 1100;
+// Arrays may share data and blocks may hold nothing but zeros: without a limit for the whole file, a small one could
+// fill the memory. A million tets on a regular lattice take some 50 times the space of their file.
+constexpr std::uint64_t kMostExpansionOfAll = 300, kAlwaysAllowed = 1 << 20;
 
 constexpr std::array<signed char, 256> make_base64_values() {
   std::array<signed char, 256> values{};
@@ -102,6 +105,7 @@ VtuArrays::VtuArrays(const Source& source, const XmlNode& root, std::string_view
     source.fail("is compressed with " + in_quotes(compressor), "save it with zlib compression or none");
   }
   compressed_ = !compressor.empty();
+  budget_ = kAlwaysAllowed + (compressed_ ? kMostExpansionOfAll : 1) * source.bytes.size();
   const std::string_view header = root.attribute("header_type", "UInt32");
   if (header != "UInt32" && header != "UInt64") source.fail("has the unknown header_type " + in_quotes(header));
   header_size_ = header == "UInt64" ? 8 : 4;
@@ -112,7 +116,12 @@ std::uint64_t VtuArrays::header_number(const std::string& bytes, std::size_t ind
   return header_size_ == 8 ? load<std::uint64_t>(at, order_) : load<std::uint32_t>(at, order_);
 }
 
-std::string VtuArrays::decompress(Bytes& bytes) const {
+void VtuArrays::spend(std::uint64_t bytes) {
+  if (bytes > budget_) source_.fail("its arrays expand to an impossible size");
+  budget_ -= bytes;
+}
+
+std::string VtuArrays::decompress(Bytes& bytes) {
   const std::string head = bytes.take(3 * header_size_);
   const std::uint64_t blocks = header_number(head, 0), block_size = header_number(head, 1);
   const std::uint64_t partial_size = header_number(head, 2);
@@ -124,6 +133,7 @@ std::string VtuArrays::decompress(Bytes& bytes) const {
     const std::string packed = bytes.take(packed_size);
     const std::uint64_t full_size = b + 1 == blocks && partial_size != 0 ? partial_size : block_size;
     if (full_size > kMostExpansion * (packed_size + 1)) source_.fail("a compressed block claims an impossible size");
+    spend(full_size);
     const std::size_t start = result.size();
     result.resize(start + full_size);
     uLongf unpacked = full_size;
@@ -134,7 +144,7 @@ std::string VtuArrays::decompress(Bytes& bytes) const {
   return result;
 }
 
-std::string VtuArrays::binary(const XmlNode& array) const {
+std::string VtuArrays::binary(const XmlNode& array) {
   std::string_view text = array.text;
   bool base64 = true;
   if (array.attribute("format") == "appended") {
@@ -148,11 +158,13 @@ std::string VtuArrays::binary(const XmlNode& array) const {
   Bytes bytes(source_, text, base64);
   if (compressed_) return decompress(bytes);
   const std::string head = bytes.take(header_size_);
-  return bytes.take(header_number(head, 0));
+  const std::uint64_t size = header_number(head, 0);
+  spend(size);
+  return bytes.take(size);
 }
 
 template <class T>
-std::vector<T> VtuArrays::numbers(const XmlNode& array) const {
+std::vector<T> VtuArrays::numbers(const XmlNode& array) {
   const std::string_view format = array.attribute("format", "ascii");
   if (format == "binary" || format == "appended") {
     return load_all_as<T>(source_, binary(array), number_type(source_, array.attribute("type")), order_);
@@ -170,7 +182,7 @@ std::vector<T> VtuArrays::numbers(const XmlNode& array) const {
   return result;
 }
 
-template std::vector<double> VtuArrays::numbers(const XmlNode&) const;
-template std::vector<std::int64_t> VtuArrays::numbers(const XmlNode&) const;
+template std::vector<double> VtuArrays::numbers(const XmlNode&);
+template std::vector<std::int64_t> VtuArrays::numbers(const XmlNode&);
 
 }  // namespace delvox::mesh_io

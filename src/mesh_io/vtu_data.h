@@ -16,16 +16,17 @@ class VtuArrays {
   /// `root` is the VTKFile element; `appended` what follows the '_' of AppendedData. Throws InputError.
   VtuArrays(const Source& source, const XmlNode& root, std::string_view appended, bool appended_is_base64);
 
-  std::vector<double> reals(const XmlNode& array) const { return numbers<double>(array); }
-  std::vector<std::int64_t> integers(const XmlNode& array) const { return numbers<std::int64_t>(array); }
+  std::vector<double> reals(const XmlNode& array) { return numbers<double>(array); }
+  std::vector<std::int64_t> integers(const XmlNode& array) { return numbers<std::int64_t>(array); }
 
  private:
   class Bytes;
 
   template <class T>
-  std::vector<T> numbers(const XmlNode& array) const;
-  std::string binary(const XmlNode& array) const;
-  std::string decompress(Bytes& bytes) const;
+  std::vector<T> numbers(const XmlNode& array);
+  std::string binary(const XmlNode& array);
+  std::string decompress(Bytes& bytes);
+  void spend(std::uint64_t bytes);
   std::uint64_t header_number(const std::string& bytes, std::size_t index) const;
 
   const Source& source_;
@@ -34,6 +35,7 @@ class VtuArrays {
   bool compressed_;
   std::size_t header_size_;
   std::endian order_;
+  std::uint64_t budget_;  ///< bytes that may still be decoded
 };
 
 }  // namespace delvox::mesh_io

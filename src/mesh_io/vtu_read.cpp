@@ -28,7 +28,7 @@ const XmlNode* find_array(const XmlNode* parent, std::string_view name) {
   return nullptr;
 }
 
-void read_field_data(const Source& source, const XmlNode& grid, const VtuArrays& arrays, MeshInfo& info) {
+void read_field_data(const Source& source, const XmlNode& grid, VtuArrays& arrays, MeshInfo& info) {
   const XmlNode* fields = grid.child("FieldData");
   if (fields == nullptr) return;
   for (const XmlNode& array : fields->children) {
@@ -42,7 +42,7 @@ void read_field_data(const Source& source, const XmlNode& grid, const VtuArrays&
 
 class PieceReader {
  public:
-  PieceReader(const Source& source, const VtuArrays& arrays, RawMesh& mesh)
+  PieceReader(const Source& source, VtuArrays& arrays, RawMesh& mesh)
       : source_(source), arrays_(arrays), mesh_(mesh) {}
 
   void read(const XmlNode& piece) {
@@ -96,8 +96,9 @@ class PieceReader {
     for (std::size_t i = 0; i < types.size(); ++i) {
       const std::int64_t end = offsets[i];
       if (end < start || end > static_cast<std::int64_t>(nodes.size())) source_.fail("the offsets of its cells lie");
-      add_cell(types[i], std::span(nodes).subspan(static_cast<std::size_t>(start), static_cast<std::size_t>(end - start)),
-               regions.empty() ? nullptr : &regions[i]);
+      const auto length = static_cast<std::size_t>(end - start);
+      const auto cell = std::span(nodes).subspan(static_cast<std::size_t>(start), length);
+      add_cell(types[i], cell, regions.empty() ? nullptr : &regions[i]);
       start = end;
     }
   }
@@ -113,7 +114,7 @@ class PieceReader {
   }
 
   const Source& source_;
-  const VtuArrays& arrays_;
+  VtuArrays& arrays_;
   RawMesh& mesh_;
 };
 
@@ -137,7 +138,7 @@ RawMesh read_vtu(const Source& source) {
   if (root.attribute("type") != "UnstructuredGrid") {
     source.fail("holds " + in_quotes(root.attribute("type")) + ", not an UnstructuredGrid", "save it as VTU");
   }
-  const VtuArrays arrays(source, root, appended, appended_is_base64);
+  VtuArrays arrays(source, root, appended, appended_is_base64);
   const XmlNode& grid = required(source, root, "UnstructuredGrid");
   RawMesh mesh;
   read_field_data(source, grid, arrays, mesh.info);

@@ -23,7 +23,7 @@ void append_u64(std::string& to, std::uint64_t value) {
   to.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// vtkZLibDataCompressor's layout: number of blocks, block size, size of a last partial block, compressed sizes, blocks.
+/// vtkZLibDataCompressor's layout: number of blocks, their size, size of a last partial one, compressed sizes, blocks.
 std::string compressed(std::string_view data) {
   const std::size_t blocks = (data.size() + kBlockSize - 1) / kBlockSize;
   std::string head, body;

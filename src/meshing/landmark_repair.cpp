@@ -9,22 +9,39 @@ namespace delvox {
 
 bool Refinement::repair_landmarks() {
   if (landmarks_.points.empty()) return false;
+  landmark_places_.resize(landmarks_.points.size());
   bool inserted = false;
   lost_landmarks_ = 0;
   CellId hint = delaunay_.created().front();
-  std::vector<CellId> cells;
-  for (const Point3& landmark : landmarks_.points) {
+  for (std::size_t i = 0; i < landmarks_.points.size(); ++i) {
     if (!budget_left()) return inserted;
-    hint = delaunay_.locate(landmark, hint);
-    if (const auto p = crossing_beside(landmark, hint)) {
-      if (insert_for_landmark(*p, hint)) {
-        inserted = true;
-        hint = delaunay_.created().front();
-      }
+    LandmarkPlace& place = landmark_places_[i];
+    // Most cells outlive a round of repairs, and with them what was found of their landmarks.
+    if (place.cell == kNone || !delaunay_.alive(place.cell, place.stamp)) inserted |= repair_landmark(i, hint);
+    if (place.lost) {
+      ++lost_landmarks_;
+      lost_place_ = landmarks_.points[i];
     }
-    cells.push_back(hint);
+    hint = place.cell;
   }
-  return inserted || repair_pieces(cells);
+  return inserted || repair_pieces();
+}
+
+bool Refinement::repair_landmark(std::size_t index, CellId hint) {
+  const Point3& landmark = landmarks_.points[index];
+  LandmarkPlace& place = landmark_places_[index];
+  place.cell = delaunay_.locate(landmark, hint);
+  place.lost = false;
+  const auto p = crossing_beside(landmark, place.cell);
+  const bool inserted = p && insert_for_landmark(*p, place.cell);
+  if (inserted) {
+    place.cell = delaunay_.created().front();
+    place.stamp = 0;  // to be looked for again
+  } else {
+    place.stamp = delaunay_.cell(place.cell).stamp;
+    place.lost = p.has_value();
+  }
+  return inserted;
 }
 
 /// If the cell that holds the landmark has the other label: a point of the surface inside the cell's circumball, between
@@ -37,16 +54,15 @@ std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId
 }
 
 bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
-  const double floor = surface_.min_ball_radius * surface_.min_ball_radius;
+  // A landmark that lies on the surface itself, as ties and symmetric volumes have them, asks for points ever nearer to
+  // it: even without a smallest ball that must end.
+  const double smallest = std::max(surface_.min_ball_radius, 1e-7 * oracle_.bounds().diagonal());
   const Star& star = delaunay_.evaluate(p, hint);
+  bool too_near = star.duplicate;
   for (const Star::Tet& tet : star.tets) {
-    for (VertexId vertex : tet.vertices) {
-      if (squared_distance(p, delaunay_.point(vertex)) > floor) continue;
-      ++lost_landmarks_;
-      lost_place_ = p;
-      return false;
-    }
+    for (VertexId vertex : tet.vertices) too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;
   }
+  if (too_near) return false;
   if (!insert_surface_point(p, hint)) return false;
   ++report_.topology_insertions;
   return true;
@@ -54,7 +70,9 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
 
 /// With every landmark on its side: joins pieces that a link says are one, and splits balls of pieces without landmarks,
 /// which are not real. What to insert is found before anything is inserted, one point for each pair of pieces.
-bool Refinement::repair_pieces(const std::vector<CellId>& landmark_cells) {
+bool Refinement::repair_pieces() {
+  std::vector<CellId> landmark_cells;
+  for (const LandmarkPlace& place : landmark_places_) landmark_cells.push_back(place.cell);
   const Pieces pieces = find_pieces(delaunay_, landmark_cells);
   std::vector<Point3> points;
   std::set<std::pair<std::uint32_t, std::uint32_t>> treated;

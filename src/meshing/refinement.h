@@ -54,6 +54,11 @@ class Refinement {
     CellId cell;
     std::uint32_t stamp;
   };
+  struct LandmarkPlace {
+    CellId cell = kNone;
+    std::uint32_t stamp = 0;
+    bool lost = false;  ///< on the wrong side, and nothing can be inserted for it
+  };
   enum class Fault { kNone, kSize, kAngle, kDeviation };
 
   // Surface (surface_refinement.cpp)
@@ -67,9 +72,10 @@ class Refinement {
   bool repair_umbrella(VertexId vertex);
 
   // Landmarks (landmark_repair.cpp)
+  bool repair_landmark(std::size_t index, CellId hint);
   std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell) const;
   bool insert_for_landmark(const Point3& p, CellId hint);
-  bool repair_pieces(const std::vector<CellId>& landmark_cells);
+  bool repair_pieces();
   std::optional<Point3> crossing_on_link(Point3 a, Point3 b, CellId cell_a, const Pieces& pieces) const;
   std::vector<SurfaceBall> largest_balls(const Pieces& pieces) const;
   bool budget_left() { return budget_.go_on(delaunay_.vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
@@ -93,6 +99,7 @@ class Refinement {
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
   Landmarks landmarks_;
+  std::vector<LandmarkPlace> landmark_places_;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
   Point3 deviant_place_, stuck_place_, lost_place_;

@@ -71,14 +71,14 @@ class IsosurfaceOracle final : public SmoothOracle {
 };
 
 Landmarks IsosurfaceOracle::landmarks(const Spacing& spacing) const {
-  // A mesh coarser than the voxels cannot follow every voxel; nor is it asked to.
-  const double voxel = std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
+  // A mesh coarser than half a voxel cannot follow every voxel; nor is it asked to.
+  const double fine_enough = 0.5 * (1 + 1e-6) * std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
   Landmarks all = voxel_landmarks(*field_), fine;
   constexpr std::uint32_t kLeftOut = 0xffffffffu;
   std::vector<std::uint32_t> numbers(all.points.size(), kLeftOut);
   for (std::size_t i = 0; i < all.points.size(); ++i) {
     const Point3 p = to_world_(all.points[i]);
-    if (spacing(p) > voxel) continue;
+    if (spacing(p) > fine_enough) continue;
     numbers[i] = static_cast<std::uint32_t>(fine.points.size());
     fine.points.push_back(p);
   }

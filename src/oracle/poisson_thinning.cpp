@@ -9,40 +9,35 @@
 namespace delvox {
 namespace {
 
-/// Points whose spacing lies in one octave, hashed into cubes as wide as the octave's upper end.
-class OctaveGrid {
+/// Candidates hashed into cubes. Whoever is kept strikes out its neighbours: that touches each candidate a few times,
+/// where asking for each candidate whether a kept one is near would search all cubes around it.
+class CandidateGrid {
  public:
-  explicit OctaveGrid(double width) : width_(width) {}
-
-  bool has_near(const Point3& p, double spacing) const {
-    const double reach = std::min(spacing, width_);
-    const auto low = cube({p.x - reach, p.y - reach, p.z - reach}), high = cube({p.x + reach, p.y + reach, p.z + reach});
-    // Most candidates are refused by a point in their own cube.
-    if (near_in(cube(p), p, spacing)) return true;
-    for (std::int64_t k = low[2]; k <= high[2]; ++k) {
-      for (std::int64_t j = low[1]; j <= high[1]; ++j) {
-        for (std::int64_t i = low[0]; i <= high[0]; ++i) {
-          if (near_in({i, j, k}, p, spacing)) return true;
-        }
-      }
+  CandidateGrid(const std::vector<SpacedPoint>& candidates, double width)
+      : candidates_(candidates), width_(width), next_(candidates.size(), kEnd), struck_(candidates.size(), 0) {
+    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
+      std::uint32_t& first = first_[key(cube(candidates[i].point))];
+      next_[i] = first;
+      first = i;
     }
-    return false;
   }
 
-  void add(const Point3& p, double spacing) {
-    std::uint32_t& first = first_[key(cube(p))];
-    entries_.push_back({p, spacing, first});
-    first = static_cast<std::uint32_t>(entries_.size() - 1);
+  bool struck(std::uint32_t i) const { return struck_[i] != 0; }
+
+  void strike_neighbours(std::uint32_t kept) {
+    const Point3& p = candidates_[kept].point;
+    const double reach = candidates_[kept].spacing;
+    const Cube low = cube({p.x - reach, p.y - reach, p.z - reach}), high = cube({p.x + reach, p.y + reach, p.z + reach});
+    for (std::int64_t k = low[2]; k <= high[2]; ++k) {
+      for (std::int64_t j = low[1]; j <= high[1]; ++j) {
+        for (std::int64_t i = low[0]; i <= high[0]; ++i) strike_in({i, j, k}, kept);
+      }
+    }
   }
 
  private:
   using Cube = std::array<std::int64_t, 3>;
   static constexpr std::uint32_t kEnd = FlatHash::kAbsent;
-  struct Entry {
-    Point3 point;
-    double spacing;
-    std::uint32_t next;
-  };
 
   Cube cube(const Point3& p) const {
     return {static_cast<std::int64_t>(std::floor(p.x / width_)), static_cast<std::int64_t>(std::floor(p.y / width_)),
@@ -53,34 +48,39 @@ class OctaveGrid {
     const auto part = [](std::int64_t i) { return static_cast<std::uint64_t>(i) & 0x1fffff; };
     return part(c[0]) | part(c[1]) << 21 | part(c[2]) << 42;
   }
-  bool near_in(const Cube& c, const Point3& p, double spacing) const {
-    for (std::uint32_t e = first_.find(key(c)); e != kEnd; e = entries_[e].next) {
-      const double reach = std::min(spacing, entries_[e].spacing);
-      if (squared_distance(entries_[e].point, p) < reach * reach) return true;
+
+  void strike_in(const Cube& c, std::uint32_t kept) {
+    const SpacedPoint& centre = candidates_[kept];
+    for (std::uint32_t i = first_.find(key(c)); i != kEnd; i = next_[i]) {
+      const double reach = std::min(centre.spacing, candidates_[i].spacing);
+      if (squared_distance(candidates_[i].point, centre.point) < reach * reach) struck_[i] = 1;
     }
-    return false;
   }
 
+  const std::vector<SpacedPoint>& candidates_;
   double width_;
   FlatHash first_;
-  std::vector<Entry> entries_;
+  std::vector<std::uint32_t> next_;
+  std::vector<std::uint8_t> struck_;
 };
 
 }  // namespace
 
 std::vector<std::uint32_t> thin_poisson(const std::vector<SpacedPoint>& candidates) {
-  double largest = 0;
-  for (const SpacedPoint& c : candidates) largest = std::max(largest, c.spacing);
-  std::vector<OctaveGrid> octaves;
   std::vector<std::uint32_t> kept;
+  if (candidates.empty()) return kept;
+  // Cubes as wide as the usual spacing: a few specks with tiny spacings must not make them narrow for all.
+  std::vector<double> spacings;
+  spacings.reserve(candidates.size());
+  for (const SpacedPoint& c : candidates) spacings.push_back(c.spacing);
+  const auto median = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), median, spacings.end());
+  constexpr double kCubesPerLargest = 16;
+  const double largest = *std::max_element(median, spacings.end());
+  CandidateGrid grid(candidates, std::max(*median, largest / kCubesPerLargest));
   for (std::uint32_t index = 0; index < candidates.size(); ++index) {
-    const SpacedPoint& c = candidates[index];
-    const std::size_t octave = static_cast<std::size_t>(std::max(0.0, std::floor(std::log2(largest / c.spacing))));
-    while (octaves.size() <= octave) octaves.emplace_back(std::ldexp(largest, -static_cast<int>(octaves.size())));
-    const bool refused = std::any_of(octaves.begin(), octaves.end(),
-                                     [&](const OctaveGrid& grid) { return grid.has_near(c.point, c.spacing); });
-    if (refused) continue;
-    octaves[octave].add(c.point, c.spacing);
+    if (grid.struck(index)) continue;
+    grid.strike_neighbours(index);
     kept.push_back(index);
   }
   return kept;

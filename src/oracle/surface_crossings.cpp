@@ -27,9 +27,15 @@ class CrossingFinder {
  private:
   bool last(const Index3& sample, int axis) const { return sample[axis] + 1 >= field_.size()[axis]; }
 
-  std::uint64_t key(Index3 sample, int axis) const {
-    const auto& n = field_.size();
-    return ((static_cast<std::uint64_t>(sample[2]) * n[1] + sample[1]) * n[0] + sample[0]) * 3 + axis;
+  /// Edges of one brick share all but the low bits, which the hash keeps together.
+  std::uint64_t key(const Index3& sample, int axis) const {
+    constexpr int kBits = 3, kMask = BrickField::kBrick - 1;
+    static_assert(BrickField::kBrick == 1 << kBits);
+    const auto& n = field_.brick_counts();
+    const std::uint64_t brick = (static_cast<std::uint64_t>(sample[2] >> kBits) * (n[1] + 1) + (sample[1] >> kBits)) *
+                                    (n[0] + 1) + (sample[0] >> kBits);
+    const int local = ((sample[2] & kMask) << 2 * kBits | (sample[1] & kMask) << kBits | (sample[0] & kMask)) * 3 + axis;
+    return brick << 11 | static_cast<std::uint64_t>(local);
   }
 
   void add_edges(const Index3& sample, const float* p) {
@@ -49,10 +55,10 @@ class CrossingFinder {
       const int u = (normal + 1) % 3, v = (normal + 2) % 3;
       if (last(sample, u) || last(sample, v)) continue;
       // Corners a (base), b (+u), c (+u+v), d (+v) and the four edges between them, in turn.
-      const std::array<double, 4> g{p[0] - level_, p[kStride[u]] - level_, p[kStride[u] + kStride[v]] - level_,
-                                    p[kStride[v]] - level_};
-      const int inside = (g[0] > 0) + (g[1] > 0) + (g[2] > 0) + (g[3] > 0);
+      const std::array<float, 4> f{p[0], p[kStride[u]], p[kStride[u] + kStride[v]], p[kStride[v]]};
+      const int inside = (f[0] > level_) + (f[1] > level_) + (f[2] > level_) + (f[3] > level_);
       if (inside == 0 || inside == 4) continue;
+      const std::array<double, 4> g{f[0] - level_, f[1] - level_, f[2] - level_, f[3] - level_};
       Index3 plus_u = sample, plus_v = sample;
       ++plus_u[u];
       ++plus_v[v];

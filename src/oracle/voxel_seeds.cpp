@@ -13,6 +13,8 @@ namespace {
 
 /// Seeds lie this much denser than the wanted spacing, so that refinement starts from a nearly finished sample.
 constexpr double kDensity = 0.9;
+/// Candidates per square of the spacing that thinning starts from; more would hardly fill the gaps any better.
+constexpr double kCandidatesPerSquare = 6;
 /// A component keeps all its crossings if it has no more than this.
 constexpr std::size_t kFewCrossings = 24;
 
@@ -78,6 +80,8 @@ class SeedMaker {
       const double spacing = wanted_spacing(c, to_world_(c.point()));
       const bool speck = extents_[c.component].crossings <= kFewCrossings;
       const double per_voxel = voxel_ / (0.9 * spacing);
+      const bool large = spacing < 0.1 * extents_[c.component].box.diagonal();
+      if (large && unit_interval(hash_edge(c, 0)) > kCandidatesPerSquare * per_voxel * per_voxel) continue;
       const int copies = speck ? 1 : std::clamp(static_cast<int>(std::ceil(per_voxel * per_voxel)), 1, 64);
       for (std::uint32_t copy = 0; copy < static_cast<std::uint32_t>(copies); ++copy) {
         Candidate candidate{index, copy, c.point(), false, spacing, hash_edge(c, copy)};

@@ -44,9 +44,8 @@ def parse_arguments():
     parser.add_argument("--cut", type=vector, help="take away what lies on this side of the plane")
     parser.add_argument("--at", type=float, default=0.5, help="where the plane lies along its normal, 0 to 1")
     parser.add_argument("--size", default="1000x800")
-    parser.add_argument("--zoom", type=float, default=1.35)
     parser.add_argument("--no-edges", action="store_true")
-    parser.add_argument("--colours", type=int, default=96, help="of the PNG's palette")
+    parser.add_argument("--colours", type=int, default=192, help="of the PNG's palette")
     return parser.parse_args()
 
 
@@ -194,7 +193,33 @@ def legend(lookup):
     return bar
 
 
-def shoot(actors, options):
+def aim(camera, points, options, aspect, right_margin):
+    """Looks from options.eye so that the points fill the picture but for margins (shares of its width)."""
+    camera.ParallelProjectionOn()
+    camera.SetFocalPoint(0, 0, 0)
+    camera.SetPosition(*options.eye)
+    camera.SetViewUp(*options.up)
+    camera.OrthogonalizeViewUp()
+    to_view = camera.GetViewTransformMatrix()
+    axes = [[to_view.GetElement(row, column) for column in range(3)] for row in range(3)]
+    low, high = [float("inf")] * 3, [-float("inf")] * 3
+    for i in range(points.GetNumberOfPoints()):
+        point = points.GetPoint(i)
+        for k, axis in enumerate(axes):
+            x = axis[0] * point[0] + axis[1] * point[1] + axis[2] * point[2]
+            low[k], high[k] = min(low[k], x), max(high[k], x)
+    width, height, depth = (h - l for l, h in zip(low, high))
+    margin = 0.03
+    scale = max(height / (1 - 2 * margin), width / (1 - 2 * margin - right_margin) / aspect) / 2
+    middle = [(l + h) / 2 for l, h in zip(low, high)]
+    middle[0] += right_margin * scale * aspect
+    focus = [sum(axes[k][c] * middle[k] for k in range(3)) for c in range(3)]
+    camera.SetFocalPoint(*focus)
+    camera.SetPosition(*(f + 2 * (depth + scale) * axes[2][c] for c, f in enumerate(focus)))
+    camera.SetParallelScale(scale)
+
+
+def shoot(surface, actors, options, right_margin):
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(*BACKGROUND)
     for actor in actors:
@@ -204,13 +229,8 @@ def shoot(actors, options):
     window.SetMultiSamples(8)
     window.SetSize(*(int(part) for part in options.size.split("x")))
     window.AddRenderer(renderer)
-    camera = renderer.GetActiveCamera()
-    camera.SetFocalPoint(0, 0, 0)
-    camera.SetPosition(*options.eye)
-    camera.SetViewUp(*options.up)
-    camera.ParallelProjectionOn()
-    renderer.ResetCamera()
-    camera.Zoom(options.zoom)
+    width, height = window.GetSize()
+    aim(renderer.GetActiveCamera(), surface, options, width / height, right_margin)
     renderer.ResetCameraClippingRange()
     window.Render()
     grab = vtk.vtkWindowToImageFilter()
@@ -258,7 +278,7 @@ def main():
     else:
         surface = mesh
     actors = [actor_of(surface, not options.no_edges, lookup)] + ([legend(lookup)] if lookup else [])
-    write_palette_png(shoot(actors, options), options.colours, options.output)
+    write_palette_png(shoot(surface, actors, options, 0.12 if lookup else 0), options.colours, options.output)
     print("%s: %d triangles, %.0f kB" % (options.output, surface.GetNumberOfCells(),
                                          os.path.getsize(options.output) / 1000))
 

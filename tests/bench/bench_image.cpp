@@ -14,8 +14,12 @@ namespace {
 
 constexpr const char kPhantomPrefix[] = "phantom:";
 
-bool is_phantom(const std::string& path) { return path.starts_with(kPhantomPrefix); }
-std::string phantom_kind(const std::string& path) { return path.substr(sizeof(kPhantomPrefix) - 1); }
+bool is_phantom(const std::string& path) {
+  return path.starts_with(kPhantomPrefix);
+}
+std::string phantom_kind(const std::string& path) {
+  return path.substr(sizeof(kPhantomPrefix) - 1);
+}
 
 Volume straightened(const Volume& volume) {
   VolumeHeader header = volume.header();

@@ -19,9 +19,7 @@ struct BenchImage {
   double level = 0;
   std::vector<float> samples;
 
-  float sample(int i, int j, int k) const {
-    return samples[(static_cast<std::size_t>(k) * size[1] + j) * size[0] + i];
-  }
+  float sample(int i, int j, int k) const { return samples[(static_cast<std::size_t>(k) * size[1] + j) * size[0] + i]; }
   /// Position in units of samples of a point in mm.
   Point3 to_grid(const Point3& p) const { return {p.x / spacing.x + 1, p.y / spacing.y + 1, p.z / spacing.z + 1}; }
   /// Trilinear value minus level at grid position u, clamped to the image, and its gradient per sample. Written for
@@ -31,8 +29,8 @@ struct BenchImage {
 
 BenchImage make_bench_image(const Volume& volume, const Isosurface& surface);
 
-/// Reads a volume file, or makes "phantom:KIND", smooths it, and drops origin and obliqueness, which CGAL's image domain
-/// cannot hold.
+/// Reads a volume file, or makes "phantom:KIND", smooths it, and drops origin and obliqueness, which CGAL's image
+/// domain cannot hold.
 Volume prepare_volume(const std::string& path, double smooth_mm);
 
 /// The isovalue that goes with "phantom:KIND". Throws OptionError for anything else.

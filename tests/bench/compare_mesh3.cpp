@@ -1,18 +1,19 @@
-// delvox against CGAL's Mesh_3 on one thread: the same image, the same criteria, interleaved runs, medians; every run in
-// a process of its own. See --help. Final numbers want an idle machine.
+// delvox against CGAL's Mesh_3 on one thread: the same image, the same criteria, interleaved runs, medians; every run
+// in a process of its own. See --help. Final numbers want an idle machine.
 
-#include <CLI/CLI.hpp>
 #include <tbb/global_control.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
-#include <map>
+#include <numbers>
 #include <optional>
 
 #include "delvox/mesh_io/write_mesh.h"
+#include "delvox/volume/voxel_topology.h"
 #include "scoreboard.h"
 
 namespace delvox::bench {
@@ -64,7 +65,8 @@ class Comparison {
     const double size = options_.tets > 0 ? search_size(options_.tets) : *options_.size;
     print_setting(size);
     std::vector<Column> columns;
-    for (const Contender contender : chosen()) columns.push_back({kNames[int(contender)], contender == Contender::kBulk, {}});
+    for (const Contender contender : chosen())
+      columns.push_back({kNames[int(contender)], contender == Contender::kBulk, {}});
     const auto contenders = chosen();
     if (contenders.front() == Contender::kBulk) run_once(Contender::kDelvox, size);  // for its points
     for (int round = 0; round < options_.repeat; ++round) {
@@ -90,9 +92,10 @@ class Comparison {
       const LevelSet level_set(surface_);
       const std::vector<float> samples = volume.samples();
       Arena::Shape shape{volume.dims(), volume.header().spacing(), 0};
-      const auto inside = std::count_if(samples.begin(), samples.end(),
-                                        [&](float s) { return level_set.inside(level_set.sign * s); });
+      const auto inside =
+          std::count_if(samples.begin(), samples.end(), [&](float s) { return level_set.inside(level_set.sign * s); });
       shape.inside_mm3 = static_cast<double>(inside) * shape.spacing.x * shape.spacing.y * shape.spacing.z;
+      if (inside == 0) throw std::runtime_error("no sample is inside");  // CGAL would look for one for ever
       arena_.samples.write_array(samples);
       arena_.shape.write_array(std::vector{shape});
       Outcome done;
@@ -110,16 +113,11 @@ class Comparison {
   }
 
   Outcome run_once(Contender contender, double size) {
-    const bool measured = !measures_.contains({int(contender), size});
-    Outcome outcome = run_isolated([&] { return contend(contender, size, measured); });
-    MeshMeasures& known = measures_[{int(contender), size}];
-    if (measured) known = outcome.mesh;
-    outcome.mesh = known;  // a contender gives the same mesh each time; the parallel tag too, on one thread
-    return outcome;
+    return run_isolated([&] { return contend(contender, size); });
   }
 
-  /// In a process of its own.
-  Outcome contend(Contender contender, double size, bool measured) const {
+  /// In a process of its own. Every run is measured: CGAL's parallel tag gives another mesh each time.
+  Outcome contend(Contender contender, double size) const {
     const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
                                       static_cast<std::size_t>(options_.threads));
     Outcome outcome;
@@ -129,11 +127,12 @@ class Comparison {
       run = run_bulk_insertion(points);
       outcome.mesh.vertices = points.size();
     } else {
-      Volume volume = arena_.volume();
-      run = contender == Contender::kDelvox ? run_delvox(volume, surface_, criteria(size))
-                                            : run_mesh3(make_bench_image(volume, surface_), criteria(size), tagged(contender));
-      if (measured) outcome.mesh = measure(run.mesh, make_bench_image(volume, surface_));
-      if (measured && !options_.write_prefix.empty()) write(contender, run.mesh);
+      const Volume volume = without_specks(size);
+      run = contender == Contender::kDelvox
+                ? run_delvox(volume, surface_, criteria(size))
+                : run_mesh3(make_bench_image(volume, surface_), criteria(size), tagged(contender));
+      outcome.mesh = measure(run.mesh, make_bench_image(volume, surface_));
+      if (!options_.write_prefix.empty()) write(contender, run.mesh);
       if (contender == Contender::kDelvox) arena_.points.write_array(run.mesh.points);
     }
     outcome.ok = true;
@@ -143,6 +142,14 @@ class Comparison {
     outcome.all_cells = run.all_cells;
     set_note(outcome, run.note);
     return outcome;
+  }
+
+  double min_component_mm3(double size) const {
+    return options_.min_component.value_or(4.0 / 3 * std::numbers::pi * size * size * size);
+  }
+
+  Volume without_specks(double size) const {
+    return filter_components(arena_.volume(), surface_, {.min_component_mm3 = min_component_mm3(size)}).volume;
   }
 
   Mesh3Choices tagged(Contender contender) const {
@@ -163,7 +170,8 @@ class Comparison {
     double best = size, best_error = HUGE_VAL;
     for (int attempt = 0; attempt < 6 && best_error > 0.02; ++attempt) {
       const Outcome outcome = run_once(Contender::kDelvox, size);
-      if (!outcome.ok || outcome.mesh.tets == 0) throw std::runtime_error("no mesh: " + std::string(outcome.note.data()));
+      if (!outcome.ok || outcome.mesh.tets == 0)
+        throw std::runtime_error("no mesh: " + std::string(outcome.note.data()));
       const double ratio = static_cast<double>(outcome.mesh.tets) / static_cast<double>(wanted);
       std::fprintf(stderr, "size %.6g mm: %zu tets in %.2f s\n", size, outcome.mesh.tets, outcome.seconds);
       if (std::abs(std::log(ratio)) < best_error) best_error = std::abs(std::log(ratio)), best = size;
@@ -180,9 +188,9 @@ class Comparison {
 
   void print_setting(double size) const {
     const Arena::Shape shape = arena_.read_shape();
-    std::printf("%s: %d x %d x %d voxels of %.4g x %.4g x %.4g mm, iso %.6g, smooth %g mm\n", options_.volume.c_str(),
-                shape.dims[0], shape.dims[1], shape.dims[2], shape.spacing.x, shape.spacing.y, shape.spacing.z,
-                surface_.isovalue, options_.smooth);
+    std::printf("%s: %d x %d x %d voxels of %.4g x %.4g x %.4g mm, iso %.6g, smooth %g mm, min component %.4g mm3\n",
+                options_.volume.c_str(), shape.dims[0], shape.dims[1], shape.dims[2], shape.spacing.x, shape.spacing.y,
+                shape.spacing.z, surface_.isovalue, options_.smooth, min_component_mm3(size));
     std::printf("size %.6g mm, cell size %.6g mm, angle 30, radius-edge 2; CGAL domain: %s, seeds: %s, %s\n", size,
                 criteria(size).cell_size, options_.mesh3_domain.c_str(), options_.mesh3_seeds.c_str(),
                 options_.mesh3.manifold ? "manifold" : "facet vertices on surface");
@@ -208,7 +216,6 @@ class Comparison {
   Options options_;
   Isosurface surface_;
   Arena arena_;
-  std::map<std::pair<int, double>, MeshMeasures> measures_;
 };
 
 void declare(CLI::App& app, Options& options) {
@@ -218,20 +225,25 @@ void declare(CLI::App& app, Options& options) {
   auto* size = app.add_option("--size", options.size, "Bound on surface ball radii, mm")->check(CLI::PositiveNumber);
   auto* tets = app.add_option("--tets", options.tets, "Instead: the size at which delvox gives about so many tets");
   size->excludes(tets);
-  app.add_option("--cell-size", options.cell_size, "Bound on circumradii, mm (default: --size)")->check(CLI::PositiveNumber);
+  app.add_option("--cell-size", options.cell_size, "Bound on circumradii, mm (default: --size)")
+      ->check(CLI::PositiveNumber);
   app.add_option("--smooth", options.smooth, "Gaussian smoothing before all contenders, sigma in mm");
+  app.add_option("--min-component", options.min_component,
+                 "Smaller components and cavities are taken out first, mm3 (default: one surface ball)");
   app.add_option("--repeat", options.repeat, "Runs of each contender")->check(CLI::PositiveNumber);
   app.add_option("--threads", options.threads, "For all contenders")->check(CLI::PositiveNumber);
   app.add_option("--only", options.only, "Which contenders: ours, seq, par, bulk")
       ->delimiter(',')
       ->check(CLI::IsMember({"ours", "seq", "par", "bulk"}));
-  app.add_option("--cgal-domain", options.mesh3_domain, "image: CGAL::Image_3; function: our trilinear labelling function")
+  app.add_option("--cgal-domain", options.mesh3_domain,
+                 "image: CGAL::Image_3; function: our trilinear labelling function")
       ->check(CLI::IsMember({"image", "function"}));
-  app.add_option("--cgal-seeds", options.mesh3_seeds, "default: CGAL's random rays; components: one for each voxel component")
+  app.add_option("--cgal-seeds", options.mesh3_seeds,
+                 "default: CGAL's random rays; components: one for each voxel component")
       ->check(CLI::IsMember({"default", "components"}));
   app.add_option("--cgal-error-bound", options.mesh3.error_bound, "Of CGAL's bisection, relative to the bounding box");
   app.add_flag("--cgal-manifold", options.mesh3.manifold, "Ask CGAL for a manifold boundary");
-  app.add_option("--write", options.write_prefix, "Write each mesh to PREFIX_contender.vtu");
+  app.add_option("--write", options.write_prefix, "Write each mesh (of the last run) to PREFIX_contender.vtu");
 }
 
 int main_of(int argc, char** argv) {
@@ -253,4 +265,6 @@ int main_of(int argc, char** argv) {
 }  // namespace
 }  // namespace delvox::bench
 
-int main(int argc, char** argv) { return delvox::bench::main_of(argc, argv); }
+int main(int argc, char** argv) {
+  return delvox::bench::main_of(argc, argv);
+}

@@ -10,8 +10,8 @@ namespace delvox::bench {
 
 /// The criteria that all contenders meet: mm and degrees.
 struct BenchCriteria {
-  double size = 1;          ///< bound on surface Delaunay ball radii
-  double cell_size = 1;     ///< bound on circumradii of tets
+  double size = 1;       ///< bound on surface Delaunay ball radii
+  double cell_size = 1;  ///< bound on circumradii of tets
   double angle_degrees = 30;
   double radius_edge = 2;
 };
@@ -27,12 +27,12 @@ struct Mesh3Choices {
 
 /// A mesh in memory and what it took to make it.
 struct BenchRun {
-  TetMesh mesh;                 ///< points and tets only; points in mm, the first voxel at the origin
-  std::size_t all_cells = 0;    ///< bulk insertion only: finite cells of the triangulation
+  TetMesh mesh;               ///< points and tets only; points in mm, the first voxel at the origin
+  std::size_t all_cells = 0;  ///< bulk insertion only: finite cells of the triangulation
   double seconds = 0;
   double cpu_seconds = 0;
-  double peak_bytes = 0;        ///< above what the process held before meshing (input image included)
-  std::string note;             ///< what the contender has to say of the run; empty: nothing
+  double peak_bytes = 0;  ///< above what the process held before meshing (input image included)
+  std::string note;       ///< what the contender has to say of the run; empty: nothing
 };
 
 /// Read volume once -> isosurface oracle -> deltetsurf -> extracted mesh.
@@ -50,6 +50,7 @@ class Meter {
  public:
   Meter();
   void stop(BenchRun& run) const;
+  double peak_bytes() const;
 
  private:
   double resident_, wall_, cpu_;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "contender.h"
@@ -20,6 +21,7 @@ BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const Bench
   RunReport report;
   const Meter meter;
   const auto oracle = make_isosurface_oracle(volume, surface);
+  const double oracle_bytes = meter.peak_bytes();
   run.mesh = deltetsurf(*oracle, options, report);
   meter.stop(run);
 
@@ -28,6 +30,7 @@ BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const Bench
     note << unmet.count << " unmet: " << unmet.criterion << (unmet.breaks_promise ? "" : " (no promise)") << "; ";
   }
   for (const StageTime& stage : report.stages) note << stage.stage << ' ' << stage.seconds << " s ";
+  note << "(peak memory after the oracle " << std::lround(oracle_bytes / (1 << 20)) << " MB)";
   run.note = note.str();
   return run;
 }

@@ -40,7 +40,9 @@ CGAL::Image_3 to_cgal(BenchImage& image) {
   return CGAL::Image_3(raw, CGAL::Image_3::DO_NOT_OWN_THE_DATA);
 }
 
-double outside_value(const BenchImage& image) { return image.level - std::abs(image.level) - 1; }
+double outside_value(const BenchImage& image) {
+  return image.level - std::abs(image.level) - 1;
+}
 
 /// The same trilinear function as the image domain evaluates, by code that spares its divisions.
 struct Labelling {
@@ -112,8 +114,8 @@ BenchRun run_tagged(BenchImage& image, const BenchCriteria& bounds, const Mesh3C
     CGAL::refine_mesh_3(complex, domain, criteria, params::no_perturb(), params::no_exude(), params::no_lloyd(),
                         params::no_odt(), topology);
   } else {
-    complex = CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude(),
-                                         params::no_lloyd(), params::no_odt(), topology);
+    complex = CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude(), params::no_lloyd(),
+                                         params::no_odt(), topology);
   }
   meter.stop(run);
   run.mesh = extract(complex, image.spacing);

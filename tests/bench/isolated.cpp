@@ -14,7 +14,9 @@ namespace delvox::bench {
 
 namespace {
 
-[[noreturn]] void fail(const char* what) { throw std::runtime_error(std::string(what) + ": " + std::strerror(errno)); }
+[[noreturn]] void fail(const char* what) {
+  throw std::runtime_error(std::string(what) + ": " + std::strerror(errno));
+}
 
 void write_all(int descriptor, const std::byte* data, std::size_t size) {
   while (size > 0) {
@@ -81,7 +83,9 @@ SharedBytes::SharedBytes() : descriptor_(memfd_create("compare_mesh3", 0)) {
   if (descriptor_ < 0) fail("memfd_create");
 }
 
-SharedBytes::~SharedBytes() { close(descriptor_); }
+SharedBytes::~SharedBytes() {
+  close(descriptor_);
+}
 
 void SharedBytes::write(std::span<const std::byte> bytes) const {
   if (ftruncate(descriptor_, 0) != 0 || lseek(descriptor_, 0, SEEK_SET) != 0) fail("memfd");

@@ -71,7 +71,8 @@ void measure_tets(const TetMesh& mesh, MeshMeasures& m) {
     if (!(six_volume > 0)) ++m.flat_tets;
     m.volume_mm3 += six_volume / 6;
 
-    const Vector3 offset = squared_norm(a) * cross(b, c) + squared_norm(b) * cross(c, a) + squared_norm(c) * cross(a, b);
+    const Vector3 offset =
+        squared_norm(a) * cross(b, c) + squared_norm(b) * cross(c, a) + squared_norm(c) * cross(a, b);
     const double radius = norm(offset) / std::abs(2 * six_volume);
     double shortest = HUGE_VAL;
     for (int i = 0; i < 4; ++i)

@@ -28,17 +28,21 @@ double status_bytes(const std::string& key) {
 }  // namespace
 
 Meter::Meter() {
-  malloc_trim(0);                                // what freed inputs left behind must not be reused unseen
-  std::ofstream("/proc/self/clear_refs") << 5;   // the peak (VmHWM, that is ru_maxrss) starts again from here
+  malloc_trim(0);                               // what freed inputs left behind must not be reused unseen
+  std::ofstream("/proc/self/clear_refs") << 5;  // the peak (VmHWM, that is ru_maxrss) starts again from here
   resident_ = status_bytes("VmRSS");
   wall_ = seconds_of(CLOCK_MONOTONIC);
   cpu_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
+double Meter::peak_bytes() const {
+  return status_bytes("VmHWM") - resident_;
+}
+
 void Meter::stop(BenchRun& run) const {
   run.cpu_seconds = seconds_of(CLOCK_PROCESS_CPUTIME_ID) - cpu_;
   run.seconds = seconds_of(CLOCK_MONOTONIC) - wall_;
-  run.peak_bytes = status_bytes("VmHWM") - resident_;
+  run.peak_bytes = peak_bytes();
 }
 
 }  // namespace delvox::bench

@@ -79,8 +79,9 @@ TEST(ForeignVtu, IsReadInPiecesAndAsBase64WithHeadersEncodedApart) {
   const std::string cells = R"(<Cells><DataArray type="Int32" Name="connectivity" format="ascii">0 1 2</DataArray>
     <DataArray type="Int32" Name="offsets" format="ascii">3</DataArray>
     <DataArray type="UInt8" Name="types" format="ascii">5</DataArray></Cells></Piece>)";
-  const std::string points = "SAAAAA==AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA8D8AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAADwPw"
-                             "AAAAAAAAAA";
+  const std::string points =
+      "SAAAAA==AAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAAA8D8AAAAAAAAAAAAAAAAAAAAAAAAAAAAA"
+      "AAAAAAAAAADwPwAAAAAAAAAA";
   const SurfaceMesh mesh = read_surface("a.vtu", R"(<VTKFile type="UnstructuredGrid" byte_order="LittleEndian">
     <UnstructuredGrid><Piece NumberOfPoints="3" NumberOfCells="1"><Points>
     <DataArray type="Float64" NumberOfComponents="3" format="binary">)" + points + R"(</DataArray></Points>)" + cells +

@@ -198,6 +198,24 @@ TEST(HostileVtu, ABlockThatClaimsToExpandBeyondReasonIsRefused) {
   EXPECT_NE(read_damaged(folder / "a.vtu").find("impossible size"), std::string::npos);
 }
 
+TEST(HostileVtu, ManyPiecesThatShareOneLargeArrayAreRefused) {
+  const TemporaryFolder folder;
+  constexpr std::uint32_t kPoints = 20'000;
+  std::string array(4, '\0');
+  for (unsigned byte = 0; byte < 4; ++byte) array[byte] = static_cast<char>(kPoints * 24 >> 8 * byte);
+  array.resize(4 + kPoints * 24);
+  std::string pieces;
+  for (int i = 0; i < 2000; ++i) {
+    pieces += "<Piece NumberOfPoints=\"20000\" NumberOfCells=\"0\"><Points><DataArray type=\"Float64\" "
+              "format=\"appended\" offset=\"0\"/></Points><Cells><DataArray Name=\"connectivity\"/><DataArray "
+              "Name=\"offsets\"/><DataArray Name=\"types\"/></Cells></Piece>";
+  }
+  write_bytes(folder / "a.vtu", "<VTKFile type=\"UnstructuredGrid\"><UnstructuredGrid>" + pieces +
+                                    "</UnstructuredGrid><AppendedData encoding=\"raw\">_" + array +
+                                    "</AppendedData></VTKFile>");
+  EXPECT_NE(read_damaged(folder / "a.vtu").find("impossible size"), std::string::npos);
+}
+
 TEST(HostileObj, APolygonOfManyCornersIsRefusedQuickly) {
   const TemporaryFolder folder;
   std::string bytes, face = "f";

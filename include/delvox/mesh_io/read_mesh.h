@@ -10,12 +10,17 @@ namespace delvox {
 /// A mesh as a file holds it, and how exactly it holds it.
 struct MeshFile {
   Mesh mesh;
-  std::string format;             ///< "VTU", "STL", ...
-  double coordinate_error = 0;    ///< largest relative rounding of a coordinate that the format implies (0: exact double)
+  std::string format;             ///< "VTU", "STL", "legacy VTK", "Gmsh MSH", "Abaqus INP", ...
+  double coordinate_error = 0;    ///< relative rounding of a coordinate: 6e-8 for float32, 5e-12 for .inp, else 0
 };
 
-/// Reads what write_mesh writes, ours or not: .vtu .vtk .stl .ply .off .obj .mesh .msh .inp. Polygons are triangulated,
-/// equal STL corners merged. Throws InputError, one line: file, cause, mend.
+/// Reads what write_mesh writes, ours or not: .vtu .vtk .stl .ply .off .obj .mesh .msh .msh2 .inp, in text or binary.
+/// A file with tets gives a TetMesh (its triangles are passed over; the boundary is boundary_of the tets), else a
+/// SurfaceMesh. Polygons are triangulated, equal STL corners merged (triangles that collapse by that are dropped), mid
+/// nodes of higher-order cells dropped. Other volume cells are an error, lines and points passed over. Orientation is
+/// left as it is. regions are those of the file: the array "region" in VTK, references, physical groups or ELSETs
+/// elsewhere. MeshInfo is whole in .vtu and .vtk; elsewhere comments give the frame and `complete`.
+/// Throws InputError, one line: file, cause, mend. Nothing is allocated because a file only claims to be large.
 MeshFile read_mesh(const std::filesystem::path& path);
 
 }  // namespace delvox

@@ -1,7 +1,8 @@
-// VTK itself opens what we write. Skipped where its Python module is not installed (Debian: python3-vtk9).
+// VTK and meshio open what we write. Skipped where they are not installed (Debian: python3-vtk9, python3-meshio).
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <string>
 
 #include "delvox/mesh_io/read_mesh.h"
 #include "delvox/mesh_io/write_mesh.h"
@@ -96,6 +97,29 @@ out.close()
     EXPECT_EQ(read.on_surface, written.on_surface) << variant;
     EXPECT_EQ(read.info, written.info) << variant;
   }
+}
+
+TEST(Meshio, OpensWhatWeWrite) {
+  if (std::system("/usr/bin/python3 -c 'import meshio' >/dev/null 2>&1") != 0) GTEST_SKIP() << "no meshio";
+  const TemporaryFolder folder;
+  for (const char* extension : {"vtu", "vtk", "mesh", "msh", "inp"}) {
+    write_mesh(awkward_tets(), folder / (std::string("tets.") + extension));
+  }
+  for (const char* extension : {"vtu", "mesh", "msh", "inp", "stl", "ply", "off", "obj"}) {
+    write_mesh(awkward_surface(), folder / (std::string("surface.") + extension));
+  }
+  write_bytes(folder / "script.py", R"(
+import glob, meshio
+files = sorted(glob.glob('tets.*') + glob.glob('surface.*'))
+assert len(files) == 13
+for name in files:
+    mesh = meshio.read(name)
+    kind, count = ('tetra', 2) if name.startswith('tets') else ('triangle', 6)
+    assert len(mesh.points) == 5, name
+    assert sum(len(block.data) for block in mesh.cells if block.type == kind) == count, name
+)");
+  const std::string command = "cd '" + folder.path().string() + "' && /usr/bin/python3 script.py >/dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+// The promises on Debian's sample volumes (package libcgal-demo), at sizes that take seconds.
+
+#include "volume_bars.h"
+
+namespace delvox::test {
+namespace {
+
+class SampleBars : public testing::TestWithParam<Scan> {};
+
+TEST_P(SampleBars, EveryPromiseHoldsAndASecondRunGivesTheSameBytes) {
+  TemporaryFolder folder;
+  const std::string volume = unpack_sample(GetParam().file, folder);
+  if (volume.empty()) GTEST_SKIP() << "skipped: libcgal-demo is not installed";
+  for (double size : GetParam().sizes) expect_promises_held(volume, GetParam().options, size, folder);
+}
+
+INSTANTIATE_TEST_SUITE_P(Debian, SampleBars,
+                         testing::Values(Scan{"skull", "skull_2.9.inr", {"--iso", "2.9"}, {5.06}},
+                                         Scan{"liver", "liver.inr.gz", {"--iso", "64", "--smooth", "0.8"}, {5.6}}),
+                         testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace delvox::test

@@ -1,0 +1,77 @@
+#pragma once
+
+// What is promised of every mesh, held on real volumes with the real program.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <ostream>
+
+#include "run_delvox.h"
+
+namespace delvox::test {
+namespace fs = std::filesystem;
+
+inline constexpr const char* kSamples = "/usr/share/doc/libcgal-dev/data.tar.gz";
+
+struct Scan {
+  std::string name, file;
+  std::vector<std::string> options;
+  std::vector<double> sizes;  ///< mm; about 50 k, 300 k and 1 M tets
+  std::vector<std::string> crops = {};
+  double half_voxel = 0;      ///< mm
+};
+
+inline std::ostream& operator<<(std::ostream& out, const Scan& scan) { return out << scan.name; }
+
+/// Unpacks one of Debian's sample volumes; empty if they are not installed.
+inline std::string unpack_sample(const std::string& file, const TemporaryFolder& folder) {
+  if (!fs::exists(kSamples)) return {};
+  const std::string command = "tar -xzf " + std::string(kSamples) + " -C '" + folder.path().string() + "' data/images/" + file;
+  return std::system(command.c_str()) == 0 ? folder / ("data/images/" + file) : "";
+}
+
+inline std::string find_scan(const std::string& file) {
+  const char* folder = std::getenv("DELVOX_SCANS");
+  const fs::path path = fs::path(folder != nullptr ? folder : DELVOX_DEFAULT_SCANS) / file;
+  return fs::exists(path) ? path.string() : "";
+}
+
+inline std::vector<std::string> joined(std::vector<std::string> a, const std::vector<std::string>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// Every promise verified at the end of the run, the same bytes on a second run, and the full check against the voxels:
+/// surface nodes within 1e-4 voxel, each surface ball within its bound.
+inline void expect_promises_held(const std::string& volume, const std::vector<std::string>& options, double size,
+                          const TemporaryFolder& folder) {
+  const std::string first = folder / "first.vtu", second = folder / "second.vtu";
+  const auto mesh = [&](const std::string& out) {
+    return run_delvox(joined({"tet", volume, "--size", std::to_string(size), "-o", out, "--quiet"}, options));
+  };
+  const Outcome run = mesh(first);
+  ASSERT_EQ(run.code, 0) << run.err;
+  ASSERT_EQ(mesh(second).code, 0);
+  EXPECT_TRUE(read_file(first) == read_file(second)) << "a second run gave other bytes";
+  const Outcome check = run_delvox(joined({"check", first, "--volume", volume, "--min-component",
+                                           std::to_string(4.0 / 3 * 3.14159265358979 * size * size * size)},
+                                          options));
+  EXPECT_EQ(check.code, 0) << check.out << check.err;
+}
+
+/// At half a voxel the mesh has the components and the Euler number of the trilinear isosurface.
+inline void expect_topology_of_the_voxels(const Scan& scan, const std::string& volume, const TemporaryFolder& folder) {
+  for (const std::string& crop : scan.crops) {
+    const std::string out = folder / "crop.vtu";
+    const std::vector<std::string> options =
+        joined(scan.options, {"--crop", crop, "--min-component", "0"});
+    const Outcome run = run_delvox(joined({"surface", volume, "--size", std::to_string(scan.half_voxel), "-o", out,
+                                           "--quiet"}, options));
+    ASSERT_EQ(run.code, 0) << crop << ": " << run.err;
+    const Outcome check = run_delvox(joined({"check", out, "--volume", volume, "--same-topology"}, options));
+    EXPECT_EQ(check.code, 0) << crop << ": " << check.out << check.err;
+  }
+}
+
+}  // namespace delvox::test
