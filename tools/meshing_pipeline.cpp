@@ -79,6 +79,10 @@ void MeshingRun::read() {
   file_header_ = whole.header();
   frame_ = FrameChange(file_header_.frame, options_.frame);
   volume_ = watch_.timed("preprocessing", [&] { return preprocess(whole, options_.volume, frame_); });
+  const VolumeHeader& h = volume_->header();
+  console_.detail(options_.volume.path + ": " + file_header_.format + "; meshing " + std::to_string(h.dims[0]) + " x " +
+                  std::to_string(h.dims[1]) + " x " + std::to_string(h.dims[2]) + " voxels of " + point(h.spacing()) +
+                  " mm, " + h.orientation());
 }
 
 // Chooses the isovalue and the sizes, and says so.
@@ -136,6 +140,12 @@ void MeshingRun::mesh_at(const SizeField& size) {
   const auto oracle = watch_.timed("oracle", [&] { return make_isosurface_oracle(filtered.volume, chosen_.surface); });
   throw_if_cancelled();
   mesh_ = watch_.timed("meshing", [&] { return run_mesher(*oracle, size); });
+  for (const StageTime& stage : run_report_.stages) {
+    console_.detail("stage " + stage.stage + ": " + number(stage.seconds, 3) + " s");
+  }
+  console_.detail("inserted: surface " + grouped(run_report_.surface_insertions) + ", topology " +
+                  grouped(run_report_.topology_insertions) + ", interior " + grouped(run_report_.interior_insertions) +
+                  "; removed " + grouped(run_report_.removals));
 }
 
 // --tets: meshes at sizes that close in on the wanted number.

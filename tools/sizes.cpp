@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSizesPerDiagonal = 60;
 constexpr double kVoxelsPerSize = 1.5;
-constexpr double kTetsPerCubedSize = 4;  // tets in a piece of organ of size^3, about (liver, head MR)
+constexpr double kTetsPerCubedSize = 5;  // tets in a piece of organ of size^3, about (liver, head MR)
 
 double voxel_mm3(const Volume& volume) { return std::abs(volume.header().index_to_world.determinant()); }
 
