@@ -25,7 +25,7 @@ struct MeshingOptions {
   double min_angle_degrees = 30;
   double radius_edge = 2;
   std::optional<double> max_deviation;   ///< mm
-  std::optional<double> min_ball_radius;  ///< mm; default: 0.1 voxel
+  std::optional<double> min_ball_radius;  ///< mm; default: 0.001 voxel
   std::string border = "close";          ///< close or open
   std::string frame;                     ///< ras, lps, or empty: the volume's own
   RunLimits limits;

@@ -23,7 +23,7 @@
 namespace delvox::tools {
 namespace {
 
-constexpr double kMinBallRadiusVoxels = 0.1;
+constexpr double kMinBallRadiusVoxels = 0.001;
 
 class MeshingRun {
  public:

@@ -10,7 +10,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/delvox DESTINATION ${CMAKE_INSTA
 set(delvox_config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/delvox)
 install(EXPORT delvox-targets NAMESPACE delvox:: DESTINATION ${delvox_config_folder})
 configure_package_config_file(
-  ${PROJECT_SOURCE_DIR}/cmake/delvox-config.cmake.in ${PROJECT_BINARY_DIR}/delvox-config.cmake
+  ${PROJECT_SOURCE_DIR}/src/install/delvox-config.cmake.in ${PROJECT_BINARY_DIR}/delvox-config.cmake
   INSTALL_DESTINATION ${delvox_config_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/delvox-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/delvox-config.cmake ${PROJECT_BINARY_DIR}/delvox-config-version.cmake
