@@ -71,8 +71,8 @@ class IsosurfaceOracle final : public SmoothOracle {
 };
 
 Landmarks IsosurfaceOracle::landmarks(const Spacing& spacing) const {
-  // A mesh coarser than half a voxel cannot follow every voxel; nor is it asked to.
-  const double fine_enough = 0.5 * (1 + 1e-6) * std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
+  // A mesh much coarser than half a voxel cannot follow every voxel; nor is it asked to.
+  const double fine_enough = 0.6 * std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
   Landmarks all = voxel_landmarks(*field_), fine;
   constexpr std::uint32_t kLeftOut = 0xffffffffu;
   std::vector<std::uint32_t> numbers(all.points.size(), kLeftOut);
