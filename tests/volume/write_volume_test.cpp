@@ -109,7 +109,8 @@ TEST(WriteVolume, WritesAQformThatSaysTheSameAsTheSform) {
           axes.rows[n] = {0, 0, 0, 5.0 * n};
           axes.rows[n][order[n]] = (flips >> n & 1 ? -1 : 1) * (1 + 0.5 * order[n]);
         }
-        turn.rows = {{{std::cos(angle), -std::sin(angle), 0, 0}, {std::sin(angle), std::cos(angle), 0, 0}, {0, 0, 1, 0}}};
+        const double c = std::cos(angle), s = std::sin(angle);
+        turn.rows = {{{c, -s, 0, 0}, {s, c, 0, 0}, {0, 0, 1, 0}}};
         const Volume volume = make_volume(compose(turn, axes), Frame::kRas, {4, 5, 6});
         write_volume(volume, folder / "v.nii");
         std::string bytes = read_file(folder / "v.nii");
