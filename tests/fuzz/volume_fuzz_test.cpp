@@ -95,7 +95,9 @@ class VolumeFuzz : public ::testing::Test {
         ASSERT_FALSE(HasFailure()) << "round " << round;
       }
     }
-    if (check_allocations_) EXPECT_LE(g_largest_allocation, kLargestAllocation);
+    if (check_allocations_) {
+      EXPECT_LE(g_largest_allocation, kLargestAllocation);
+    }
     std::cout << accepted << " of " << rounds * static_cast<int>(seeds.size())
               << " mutants were accepted; largest allocation " << g_largest_allocation << " bytes\n";
   }
