@@ -1,6 +1,8 @@
 #include "delvox/volume/write_volume.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <cmath>
 
@@ -171,6 +173,22 @@ TEST(WriteVolume, ThrowsIoErrorAndLeavesNothingBehindWhereItCannotWrite) {
     fs::create_directory(folder / name);
     EXPECT_THROW(write_volume(volume, folder / name), IoError) << name;
     fs::remove(folder / name);
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(WriteVolume, NoticesAFullDisk) {
+  const TempFolder folder;
+  const Volume volume = make_volume(straight(), Frame::kRas);
+  // A limit on file sizes fails as a full disk does, once its signal is ignored.
+  ::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  for (const std::string name : {"v.nii", "v.nii.gz", "v.tif", "v.json", "v.vdb"}) {
+    const rlimit limit{2000, before.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    EXPECT_THROW(write_volume(volume, folder / name), IoError) << name;
+    ::setrlimit(RLIMIT_FSIZE, &before);
   }
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
