@@ -124,7 +124,9 @@ ByteSource::ByteSource(std::filesystem::path path) : state_(std::make_unique<Sta
   ::lseek(state_->descriptor, 0, SEEK_SET);
   if (got < 2 || magic[0] != 0x1f || magic[1] != 0x8b) return;
   constexpr int kGzipOnly = 15 + 16;
-  if (inflateInit2(&state_->stream, kGzipOnly) != Z_OK) fail_input(state_->path, "no memory to inflate it", "close programs");
+  if (inflateInit2(&state_->stream, kGzipOnly) != Z_OK) {
+    fail_input(state_->path, "no memory to inflate it", "close other programs");
+  }
   state_->compressed = true;
   state_->buffer.resize(kBufferSize);
   state_->stream.next_in = state_->buffer.data();

@@ -31,7 +31,7 @@ class FieldReader {
   bool swap_;
 };
 
-/// Offsets of the fields; `Real` is their floating type.
+/// Where the real numbers lie.
 struct FieldOffsets {
   std::size_t pixdim, slope, intercept, quatern, qoffset, srow;
 };
@@ -40,7 +40,9 @@ constexpr FieldOffsets kOffsets2{104, 176, 184, 352, 376, 400};
 
 template <class Real>
 void read_reals(const FieldReader& field, const FieldOffsets& at, NiftiHeader& header) {
-  const auto real = [&](std::size_t start, int n) { return static_cast<double>(field.get<Real>(start + n * sizeof(Real))); };
+  const auto real = [&](std::size_t start, int n) {
+    return static_cast<double>(field.get<Real>(start + n * sizeof(Real)));
+  };
   for (int n = 0; n < 8; ++n) header.pixdim[n] = real(at.pixdim, n);
   header.slope = real(at.slope, 0);
   header.intercept = real(at.intercept, 0);
@@ -170,7 +172,8 @@ Affine3 nifti_affine(const std::filesystem::path& path, const NiftiHeader& heade
   check_pixdim(path, header, !has_sform, warnings);
   Affine3 affine = has_sform ? header.sform : qform_affine(header);
   if (!has_sform && !has_qform) {
-    affine = axis_aligned(path, {std::abs(header.pixdim[1]), std::abs(header.pixdim[2]), std::abs(header.pixdim[3])}, {});
+    const Vector3 spacing{std::abs(header.pixdim[1]), std::abs(header.pixdim[2]), std::abs(header.pixdim[3])};
+    affine = axis_aligned(path, spacing, {});
     warnings.push_back("neither sform nor qform is set: position and orientation are unknown, left may be right");
   }
   const Vector3 columns{norm(affine.column(0)), norm(affine.column(1)), norm(affine.column(2))};

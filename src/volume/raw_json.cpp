@@ -65,8 +65,8 @@ class Sidecar {
   }
   double real(const char* key, double missing) const { return has(key) ? real(value_[key], key) : missing; }
   std::int64_t integer(const json& value, const char* key) const {
-    const bool fits = value.is_number_integer() && (!value.is_number_unsigned() || value.get<std::uint64_t>() >> 63 == 0);
-    if (!fits) fail(std::string("'") + key + "' is no integer in range");
+    const bool too_large = value.is_number_unsigned() && value.get<std::uint64_t>() >> 63 != 0;
+    if (!value.is_number_integer() || too_large) fail(std::string("'") + key + "' is no integer in range");
     return value.get<std::int64_t>();
   }
   std::uint64_t offset() const {

@@ -40,7 +40,7 @@ std::size_t checked_voxel_count(const std::filesystem::path& path, const std::ar
   for (std::int64_t n : dims) {
     if (n < 1) fail_input(path, "the dimensions are " + text, "the header is damaged: copy or convert the file again");
     if (n > std::numeric_limits<int>::max()) {
-      fail_input(path, "the dimensions are " + text + ", above 2^31-1 along an axis", "crop or resample the file first");
+      fail_input(path, "the dimensions are " + text + ", above 2^31-1 along an axis", "crop or resample it first");
     }
     count *= static_cast<double>(n);
   }
@@ -82,7 +82,9 @@ void check_payload(const ByteSource& source, const SampleLayout& layout, std::si
 void read_sample_run(ByteSource& source, const SampleLayout& layout, std::size_t count, float* out,
                      ConversionTally& tally) {
   check_payload(source, layout, count);
-  if (layout.offset < source.position()) fail_input(source.path(), "the samples overlap the header", "convert it again");
+  if (layout.offset < source.position()) {
+    fail_input(source.path(), "the samples overlap the header", "convert the file again");
+  }
   source.skip(layout.offset - source.position(), "the data before the samples");
   constexpr std::size_t kSamplesPerPiece = std::size_t{1} << 16;
   const std::size_t sample_size = size_of(layout.type);

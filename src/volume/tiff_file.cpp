@@ -110,7 +110,8 @@ TiffFile::TiffFile(const std::filesystem::path& path) : state_(std::make_unique<
   state_->file_size = std::filesystem::file_size(path, error);
   if (error) fail_input(path, error.message(), "check the path");
   constexpr std::uint64_t kSmallestCap = std::uint64_t{64} << 20, kLargestCap = std::uint64_t{1} << 40;
-  const std::uint64_t cap = std::clamp(std::min(state_->file_size, kLargestCap / 4096) * 4096, kSmallestCap, kLargestCap);
+  const std::uint64_t expanded = std::min(state_->file_size, kLargestCap / 4096) * 4096;
+  const std::uint64_t cap = std::clamp(expanded, kSmallestCap, kLargestCap);
   TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
   TIFFOpenOptionsSetMaxSingleMemAlloc(options, static_cast<tmsize_t>(cap));
   TIFFOpenOptionsSetErrorHandlerExtR(options, record_error, &state_->last_error);

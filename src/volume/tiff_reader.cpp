@@ -147,7 +147,9 @@ void TiffStack::survey() {
 void TiffStack::check_contiguous() {
   const TiffFile tiff(files_[0]);
   const ByteSource source(files_[0]);
-  layout_ = SampleLayout{first_.type, tiff.big_endian(), tiff.first_sample_offset(), first_.slope(), first_.intercept()};
+  layout_ = SampleLayout{first_.type, tiff.big_endian(), tiff.first_sample_offset()};
+  layout_.slope = first_.slope();
+  layout_.intercept = first_.intercept();
   check_payload(source, layout_, first_.pixel_count() * static_cast<std::size_t>(geometry_.images));
 }
 

@@ -218,7 +218,9 @@ VdbGrid VdbWalker::take_grid(std::size_t descriptor_begin, std::size_t descripto
   const std::size_t transform_at = at_;
   walk_transform();
   walk_tree();
-  const auto append = [&](std::size_t begin, std::size_t end) { grid.bytes.append(bytes_.data() + begin, end - begin); };
+  const auto append = [&](std::size_t begin, std::size_t end) {
+    grid.bytes.append(bytes_.data() + begin, end - begin);
+  };
   const auto append_text = [&](const std::string& text) {
     const std::uint32_t size = static_cast<std::uint32_t>(text.size());
     grid.bytes.append(reinterpret_cast<const char*>(&size), sizeof size).append(text);

@@ -75,7 +75,9 @@ class HeaderWriter {
   void put(std::size_t offset, T value) {
     std::memcpy(bytes_.data() + offset, &value, sizeof value);
   }
-  void put_text(std::size_t offset, const char* text, std::size_t size) { std::memcpy(bytes_.data() + offset, text, size); }
+  void put_text(std::size_t offset, const char* text, std::size_t size) {
+    std::memcpy(bytes_.data() + offset, text, size);
+  }
   template <class Real>
   void put_geometry(const VolumeHeader& header, std::size_t pixdim, std::size_t quatern, std::size_t srow) {
     const Affine3 affine = to_ras(header);

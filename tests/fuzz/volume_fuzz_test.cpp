@@ -57,7 +57,8 @@ class Mutator {
 
  private:
   void change(std::string& bytes, std::size_t at) {
-    static constexpr std::uint64_t kExtremes[] = {0, 1, 2, 3, 127, 128, 255, 256, 32767, 32768, 65535, 65536, 2147483647,
+    static constexpr std::uint64_t kExtremes[] = {0, 1, 2, 3, 127, 128, 255, 256, 32767, 32768, 65535, 65536,
+                                                  2147483647,
                                                   2147483648u, 4294967295u, 1000000000u, 1099511627776u,
                                                   9223372036854775807u, 9223372036854775808u, 18446744073709551615u,
                                                   0x7f800000u, 0x7fc00000u, 0xff800000u};
@@ -97,8 +98,8 @@ class VolumeFuzz : public ::testing::Test {
     if (check_allocations_) {
       EXPECT_LE(g_largest_allocation, kLargestAllocation);
     }
-    std::cout << accepted << " of " << rounds * static_cast<int>(seeds.size()) << " mutants were accepted; largest allocation "
-              << g_largest_allocation << " bytes\n";
+    std::cout << accepted << " of " << rounds * static_cast<int>(seeds.size())
+              << " mutants were accepted; largest allocation " << g_largest_allocation << " bytes\n";
   }
   bool try_read(const fs::path& path) {
     ReadVolumeOptions options;

@@ -14,8 +14,8 @@ std::string inr_header(const std::string& fields, std::size_t multiple = 256) {
 }
 
 std::string fields(const std::string& type, int bits, const std::string& cpu, const std::string& more = "") {
-  return "XDIM=2\nYDIM=03\nZDIM=4\nVDIM=1\nTYPE=" + type + "\nPIXSIZE=" + std::to_string(bits) + " bits\nSCALE=2**0\nCPU=" +
-         cpu + "\nVX=0.5\nVY=1.5\nVZ=2.25\n#GEOMETRY=CARTESIAN\n" + more;
+  return "XDIM=2\nYDIM=03\nZDIM=4\nVDIM=1\nTYPE=" + type + "\nPIXSIZE=" + std::to_string(bits) +
+         " bits\nSCALE=2**0\nCPU=" + cpu + "\nVX=0.5\nVY=1.5\nVZ=2.25\n#GEOMETRY=CARTESIAN\n" + more;
 }
 
 Volume read_bytes(const std::string& bytes, const std::string& name = "scan.inr") {

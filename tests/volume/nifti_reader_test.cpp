@@ -12,7 +12,8 @@ using namespace delvox::testing;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-Volume read_bytes(const std::string& bytes, const std::string& name = "scan.nii", const ReadVolumeOptions& options = {}) {
+Volume read_bytes(const std::string& bytes, const std::string& name = "scan.nii",
+                  const ReadVolumeOptions& options = {}) {
   const TempFolder folder;
   return read_volume(write_file(folder / name, bytes), options);
 }

@@ -82,7 +82,8 @@ inline void write_tiff_page(TIFF* tiff, const TiffSpec& spec, int page) {
     for (std::uint32_t y = 0; y < spec.height; y += spec.tile) {
       for (std::uint32_t x = 0; x < spec.width; x += spec.tile) {
         std::string block = tiff_block(spec, page, x, y, spec.tile, spec.tile);
-        TIFFWriteEncodedTile(tiff, TIFFComputeTile(tiff, x, y, 0, 0), block.data(), static_cast<tmsize_t>(block.size()));
+        const std::uint32_t number = TIFFComputeTile(tiff, x, y, 0, 0);
+        TIFFWriteEncodedTile(tiff, number, block.data(), static_cast<tmsize_t>(block.size()));
       }
     }
   } else {

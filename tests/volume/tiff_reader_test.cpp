@@ -145,7 +145,8 @@ TEST(TiffReader, TakesSpacingOriginAndCalibrationFromImageJ) {
   TiffSpec spec;
   spec.resolution_x = spec.resolution_y = 2;
   spec.resolution_unit = RESUNIT_NONE;
-  spec.description = "ImageJ=1.53\nimages=3\nslices=3\nunit=micron\nspacing=5.0\nxorigin=4\ncf=0\nc0=-32768.0\nc1=1.0\n";
+  spec.description =
+      "ImageJ=1.53\nimages=3\nslices=3\nunit=micron\nspacing=5.0\nxorigin=4\ncf=0\nc0=-32768.0\nc1=1.0\n";
   const Volume volume = read_spec(spec);
   EXPECT_NEAR(volume.header().spacing().x, 0.0005, 1e-12);
   EXPECT_NEAR(volume.header().spacing().z, 0.005, 1e-12);

@@ -1,6 +1,8 @@
 #include "delvox/volume/write_volume.h"
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include <cmath>
 
@@ -109,7 +111,8 @@ TEST(WriteVolume, WritesAQformThatSaysTheSameAsTheSform) {
           axes.rows[n] = {0, 0, 0, 5.0 * n};
           axes.rows[n][order[n]] = (flips >> n & 1 ? -1 : 1) * (1 + 0.5 * order[n]);
         }
-        turn.rows = {{{std::cos(angle), -std::sin(angle), 0, 0}, {std::sin(angle), std::cos(angle), 0, 0}, {0, 0, 1, 0}}};
+        const double c = std::cos(angle), s = std::sin(angle);
+        turn.rows = {{{c, -s, 0, 0}, {s, c, 0, 0}, {0, 0, 1, 0}}};
         const Volume volume = make_volume(compose(turn, axes), Frame::kRas, {4, 5, 6});
         write_volume(volume, folder / "v.nii");
         std::string bytes = read_file(folder / "v.nii");
@@ -170,6 +173,22 @@ TEST(WriteVolume, ThrowsIoErrorAndLeavesNothingBehindWhereItCannotWrite) {
     fs::create_directory(folder / name);
     EXPECT_THROW(write_volume(volume, folder / name), IoError) << name;
     fs::remove(folder / name);
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(WriteVolume, NoticesAFullDisk) {
+  const TempFolder folder;
+  const Volume volume = make_volume(straight(), Frame::kRas);
+  // A limit on file sizes fails as a full disk does, once its signal is ignored.
+  ::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  for (const std::string name : {"v.nii", "v.nii.gz", "v.tif", "v.json", "v.vdb"}) {
+    const rlimit limit{2000, before.rlim_max};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    EXPECT_THROW(write_volume(volume, folder / name), IoError) << name;
+    ::setrlimit(RLIMIT_FSIZE, &before);
   }
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
