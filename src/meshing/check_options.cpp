@@ -40,4 +40,10 @@ Promises promises_of(const SurfaceCriteria& surface, const TetCriteria& tets) {
   return promises;
 }
 
+void withdraw_unmet(const RunReport& report, Promises& promises) {
+  for (const Unmet& unmet : report.unmet) {
+    if (unmet.criterion == "deviation") promises.max_deviation.reset();
+  }
+}
+
 }  // namespace delvox

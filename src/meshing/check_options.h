@@ -1,6 +1,7 @@
 #pragma once
 
 #include "delvox/core/mesh.h"
+#include "delvox/core/run.h"
 #include "delvox/meshing/criteria.h"
 
 namespace delvox {
@@ -12,5 +13,8 @@ void check_criteria(const TetCriteria& criteria);
 /// The criteria as promises; size fields promise their maximum.
 Promises promises_of(const SurfaceCriteria& criteria);
 Promises promises_of(const SurfaceCriteria& surface, const TetCriteria& tets);
+
+/// Takes back the promise of the deviation bound if the run had to leave some triangles beyond it.
+void withdraw_unmet(const RunReport& report, Promises& promises);
 
 }  // namespace delvox

@@ -26,6 +26,7 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
   refinement.report_unmet();
   SurfaceMesh mesh = extract_surface(refinement.delaunay());  // step 5
   mesh.info.promises = promises_of(options.surface);
+  withdraw_unmet(report, mesh.info.promises);
   mesh.info.complete = report.succeeded();
   return mesh;
 }

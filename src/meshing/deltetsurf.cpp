@@ -38,6 +38,7 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
   refinement.report_unmet();
   TetMesh mesh = extract_tets(refinement.delaunay());  // step 8
   mesh.info.promises = promises_of(options.surface, options.tets);
+  withdraw_unmet(report, mesh.info.promises);
   mesh.info.complete = report.succeeded();
   return mesh;
 }

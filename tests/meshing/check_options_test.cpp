@@ -98,5 +98,17 @@ TEST(CheckOptions, PromisesAreTheCriteria) {
   EXPECT_EQ(promises_of(surface, tets).cell_size, 3.0);
 }
 
+TEST(Promises, OfTheDeviationAreWithdrawnWhereTrianglesWereLeftBeyondIt) {
+  SurfaceCriteria criteria;
+  criteria.max_deviation = 0.1;
+  Promises promises = promises_of(criteria);
+  RunReport report;
+  withdraw_unmet(report, promises);
+  EXPECT_EQ(promises.max_deviation, 0.1);
+  report.unmet.push_back({"deviation", 3, {}, "", false});
+  withdraw_unmet(report, promises);
+  EXPECT_FALSE(promises.max_deviation.has_value());
+}
+
 }  // namespace
 }  // namespace delvox
