@@ -27,14 +27,14 @@ class Numbering {
 template <class Visit>
 void for_each_inside_cell(const RestrictedDelaunay& delaunay, const Visit& visit) {
   for (CellId cell = 0; cell < delaunay.cell_capacity(); ++cell) {
-    if (delaunay.cell(cell).stamp != 0 && delaunay.cell(cell).label != 0) visit(cell);
+    if (delaunay.stamp(cell) != 0 && delaunay.label(cell) != 0) visit(cell);
   }
 }
 
 /// Triangles of `cell` that face the outside.
 void add_boundary(const RestrictedDelaunay& delaunay, CellId cell, Numbering& number, std::vector<Triangle>& out) {
   for (int i = 0; i < 4; ++i) {
-    if (delaunay.cell(delaunay.neighbors(cell)[i]).label != 0) continue;
+    if (delaunay.label(delaunay.neighbors(cell)[i]) != 0) continue;
     const auto v = delaunay.vertices(FacetId{cell, i});
     out.push_back({number(v[0]), number(v[1]), number(v[2])});
   }
@@ -55,7 +55,7 @@ TetMesh extract_tets(const RestrictedDelaunay& delaunay) {
   for_each_inside_cell(delaunay, [&](CellId cell) {
     const auto& v = delaunay.vertices(cell);
     mesh.tets.push_back({number(v[0]), number(v[1]), number(v[2]), number(v[3])});
-    mesh.regions.push_back(delaunay.cell(cell).label);
+    mesh.regions.push_back(delaunay.label(cell));
     add_boundary(delaunay, cell, number, mesh.boundary);
   });
   mesh.on_surface.assign(mesh.points.size(), 0);

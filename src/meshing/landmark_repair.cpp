@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "meshing/pieces.h"
 #include "meshing/refinement.h"
@@ -24,7 +23,7 @@ bool Refinement::repair_landmarks() {
     }
     hint = place.cell;
   }
-  return inserted || repair_pieces();
+  return inserted || repair_links() || repair_pieces();
 }
 
 bool Refinement::repair_landmark(std::size_t index, CellId hint) {
@@ -38,7 +37,7 @@ bool Refinement::repair_landmark(std::size_t index, CellId hint) {
     place.cell = delaunay_.created().front();
     place.stamp = 0;  // to be looked for again
   } else {
-    place.stamp = delaunay_.cell(place.cell).stamp;
+    place.stamp = delaunay_.stamp(place.cell);
     place.lost = p.has_value();
   }
   return inserted;
@@ -47,10 +46,9 @@ bool Refinement::repair_landmark(std::size_t index, CellId hint) {
 /// If the cell that holds the landmark has the other label: a point of the surface inside the cell's circumball, between
 /// the landmark and the circumcentre. Inserting it destroys the cell.
 std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId cell) const {
-  const Cell& data = delaunay_.cell(cell);
   const Label label = oracle_.label(landmark);
-  if (label == data.label) return std::nullopt;
-  return delaunay_.dual_crossing(landmark, label, data.sphere.center, data.label);
+  if (label == delaunay_.label(cell)) return std::nullopt;
+  return delaunay_.dual_crossing(landmark, label, delaunay_.sphere(cell).center, delaunay_.label(cell));
 }
 
 bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
@@ -68,40 +66,46 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
   return true;
 }
 
-/// With every landmark on its side: joins pieces that a link says are one, and splits balls of pieces without landmarks,
-/// which are not real. What to insert is found before anything is inserted, one point for each pair of pieces.
-bool Refinement::repair_pieces() {
-  std::vector<CellId> landmark_cells;
-  for (const LandmarkPlace& place : landmark_places_) landmark_cells.push_back(place.cell);
-  const Pieces pieces = find_pieces(delaunay_, landmark_cells);
-  std::vector<Point3> points;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> treated;
+/// With every landmark on its side: each link must run through cells of its label, so that necks and tunnels are there
+/// too. What to insert is found before anything is inserted; what an earlier insertion has cured is left out.
+bool Refinement::repair_links() {
+  std::vector<MisplacedCell> misplaced;
   for (const auto& [a, b] : landmarks_.links) {
-    const std::uint32_t piece_a = pieces.of_cell[landmark_cells[a]], piece_b = pieces.of_cell[landmark_cells[b]];
-    if (piece_a == piece_b || !treated.insert(std::minmax(piece_a, piece_b)).second) continue;
-    const auto p = crossing_on_link(landmarks_.points[a], landmarks_.points[b], landmark_cells[a], pieces);
-    if (p) points.push_back(*p);
-  }
-  for (const SurfaceBall& ball : largest_balls(pieces)) {
-    if (ball.squared_radius > surface_.min_ball_radius * surface_.min_ball_radius) points.push_back(ball.center);
+    constexpr int kHalvings = 16;
+    const auto place = misplaced_on_link(landmarks_.points[a], landmark_places_[a].cell, landmarks_.points[b],
+                                         landmark_places_[b].cell, kHalvings);
+    if (place) misplaced.push_back(*place);
   }
   bool inserted = false;
-  for (const Point3& p : points) inserted |= insert_for_landmark(p, delaunay_.created().front());
+  for (const MisplacedCell& place : misplaced) {
+    if (delaunay_.alive(place.cell, place.stamp)) inserted |= insert_for_landmark(place.crossing, place.cell);
+  }
   return inserted;
 }
 
-/// Halves a link whose ends lie in different pieces until a point of it lies in a cell of the other label.
-std::optional<Point3> Refinement::crossing_on_link(Point3 a, Point3 b, CellId cell_a, const Pieces& pieces) const {
-  const std::uint32_t piece_a = pieces.of_cell[cell_a];
-  CellId hint = cell_a;
-  constexpr int kHalvings = 40;
-  for (int i = 0; i < kHalvings; ++i) {
-    const Point3 middle = midpoint(a, b);
-    hint = delaunay_.locate(middle, hint);
-    if (const auto p = crossing_beside(middle, hint)) return p;
-    (pieces.of_cell[hint] == piece_a ? a : b) = middle;
+/// A cell of the other label on the link from a in one cell to b in another: halves the link until its ends lie in one
+/// cell or in neighbours.
+std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b,
+                                                                       CellId cell_b, int halvings) const {
+  const auto& near = delaunay_.neighbors(cell_a);
+  if (cell_a == cell_b || std::count(near.begin(), near.end(), cell_b) > 0 || halvings == 0) return std::nullopt;
+  const Point3 middle = midpoint(a, b);
+  const CellId cell = delaunay_.locate(middle, cell_a);
+  if (const auto p = crossing_beside(middle, cell)) return MisplacedCell{*p, cell, delaunay_.stamp(cell)};
+  if (const auto found = misplaced_on_link(a, cell_a, middle, cell, halvings - 1)) return found;
+  return misplaced_on_link(middle, cell, b, cell_b, halvings - 1);
+}
+
+/// With every link in place: splits the balls of pieces without landmarks, which are not real, one for each piece.
+bool Refinement::repair_pieces() {
+  std::vector<CellId> landmark_cells;
+  for (const LandmarkPlace& place : landmark_places_) landmark_cells.push_back(place.cell);
+  bool inserted = false;
+  for (const SurfaceBall& ball : largest_balls(find_pieces(delaunay_, landmark_cells))) {
+    if (ball.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) continue;
+    inserted |= insert_for_landmark(ball.center, delaunay_.created().front());
   }
-  return std::nullopt;
+  return inserted;
 }
 
 std::vector<SurfaceBall> Refinement::largest_balls(const Pieces& pieces) const {

@@ -30,8 +30,8 @@ class Refinement {
   bool repair_topology();
 
   /// One insertion for each landmark of the oracle that lies on the wrong side of the mesh; if there is none, for each
-  /// link between pieces that should be one, and each piece without a landmark. True if anything was inserted. Not in
-  /// the book: trilinear surfaces have necks and gaps of any width, which no size field foresees.
+  /// link that does not stay on its side; if there is none, for each piece without a landmark. True if anything was
+  /// inserted. Not in the book: trilinear surfaces have necks and gaps of any width, which no size field foresees.
   bool repair_landmarks();
 
   /// From now on tetrahedra that break `criteria` are kept in a stack.
@@ -59,6 +59,12 @@ class Refinement {
     std::uint32_t stamp = 0;
     bool lost = false;  ///< on the wrong side, and nothing can be inserted for it
   };
+  /// A cell whose label is not that of the link through it, and a crossing inside its sphere.
+  struct MisplacedCell {
+    Point3 crossing;
+    CellId cell;
+    std::uint32_t stamp;
+  };
   enum class Fault { kNone, kSize, kAngle, kDeviation };
 
   // Surface (surface_refinement.cpp)
@@ -75,8 +81,10 @@ class Refinement {
   bool repair_landmark(std::size_t index, CellId hint);
   std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell) const;
   bool insert_for_landmark(const Point3& p, CellId hint);
+  bool repair_links();
   bool repair_pieces();
-  std::optional<Point3> crossing_on_link(Point3 a, Point3 b, CellId cell_a, const Pieces& pieces) const;
+  std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b, CellId cell_b,
+                                                 int halvings) const;
   std::vector<SurfaceBall> largest_balls(const Pieces& pieces) const;
   bool budget_left() { return budget_.go_on(delaunay_.vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
 

@@ -24,11 +24,11 @@ void Refinement::insert_seeds() {
 
 void Refinement::enqueue_created() {
   for (CellId cell : delaunay_.created()) {
-    const Cell& data = delaunay_.cell(cell);
-    if (tet_criteria_ != nullptr && data.label != 0 && bad(cell)) tets_.push_back({cell, data.stamp});
+    const std::uint32_t stamp = delaunay_.stamp(cell);
+    if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) tets_.push_back({cell, stamp});
     for (int i = 0; i < 4; ++i) {
       const FacetId facet{cell, i};
-      if (delaunay_.bipolar(facet) && delaunay_.ball(facet) == nullptr) facets_.push_back({facet, data.stamp});
+      if (delaunay_.bipolar(facet) && delaunay_.ball(facet) == nullptr) facets_.push_back({facet, stamp});
     }
   }
 }
@@ -103,6 +103,7 @@ bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
     return false;
   }
   for (CellId cell : star.zone) {
+    if (!delaunay_.has_balls(cell)) continue;
     for (int i = 0; i < 4; ++i) {
       if (delaunay_.ball({cell, i}) != nullptr) mark_dirty({cell, i});
     }
