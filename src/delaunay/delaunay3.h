@@ -35,6 +35,8 @@ class Delaunay3 {
 
   /// 0 for cells that are not in use; changes whenever the number is given to another cell.
   std::uint32_t stamp(CellId cell) const { return marks_[cell].stamp; }
+  /// What the next cell will get; stamps grow.
+  std::uint32_t next_stamp() const { return next_stamp_; }
   /// In positive order; kNone for the cell outside.
   const std::array<VertexId, 4>& vertices(CellId cell) const { return cells_[cell].vertices; }
   const std::array<CellId, 4>& neighbors(CellId cell) const { return cells_[cell].neighbors; }

@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace delvox {
-namespace {
-
-/// The same oriented triangle, its smallest vertex first.
-std::array<VertexId, 3> canonical(std::array<VertexId, 3> v) {
-  std::rotate(v.begin(), std::min_element(v.begin(), v.end()), v.end());
-  return v;
-}
-
-}  // namespace
 
 void Delaunay3::HoleFilling::find(const Delaunay3& whole, VertexId vertex, const std::vector<CellId>& cells) {
   insert_neighbours(whole, vertex, cells);

@@ -28,8 +28,8 @@ void RestrictedDelaunay::set_kind(VertexId vertex, VertexKind kind) {
 
 void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds) {
   CellId hint = delaunay_.cell_of(0);
-  for (const Point3& p : in_spatial_order(seeds)) {
-    delaunay_.evaluate(p, hint, star_);
+  for (std::uint32_t i : spatial_order(seeds)) {
+    delaunay_.evaluate(seeds[i], hint, star_);
     if (star_.duplicate) continue;
     set_kind(delaunay_.commit(star_, created_), VertexKind::kSurface);
     hint = created_.front();
@@ -39,6 +39,31 @@ void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds) {
     describe(cell);
     if (stamp(cell) != 0) created_.push_back(cell);
   }
+}
+
+std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Point3>& points,
+                                                          const std::function<bool()>& go_on) {
+  std::vector<VertexId> vertices(points.size(), kNone);
+  const std::uint32_t first_stamp = delaunay_.next_stamp();
+  CellId hint = delaunay_.cell_of(0);
+  for (std::uint32_t i : spatial_order(points)) {
+    if (!go_on()) break;
+    delaunay_.evaluate(points[i], hint, star_);
+    vertices[i] = commit_unlabelled(VertexKind::kInterior);
+    hint = created_.front();
+  }
+  created_.clear();
+  for (CellId cell = 0; cell < cell_capacity(); ++cell) {
+    if (stamp(cell) < first_stamp) continue;
+    describe(cell);
+    created_.push_back(cell);
+  }
+  for (CellId cell : created_) {
+    for (int i = 0; i < 4 && balls_.any(cell); ++i) {
+      if (!bipolar({cell, i})) drop_ball({cell, i});
+    }
+  }
+  return vertices;
 }
 
 Label RestrictedDelaunay::label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere) const {
@@ -94,6 +119,14 @@ VertexId RestrictedDelaunay::commit(VertexKind kind) {
     const bool covered = squared_distance(kept->center, star_.apex) < kept->squared_radius;
     if (covered || label(tet.outer.cell) == tet.label) drop_ball(tet.outer);
   }
+  const VertexId vertex = commit_unlabelled(kind);
+  labels_.resize(std::max(labels_.size(), cell_capacity()));
+  for (std::size_t i = 0; i < created_.size(); ++i) labels_[created_[i]] = star_.tets[i].label;
+  return vertex;
+}
+
+/// Balls inside the zone go, those on its boundary pass to the new cells.
+VertexId RestrictedDelaunay::commit_unlabelled(VertexKind kind) {
   for (CellId cell : star_.zone) {
     if (!balls_.any(cell)) continue;
     for (int i = 0; i < 4; ++i) {
@@ -103,12 +136,9 @@ VertexId RestrictedDelaunay::commit(VertexKind kind) {
   }
   const VertexId vertex = delaunay_.commit(star_, created_);
   set_kind(vertex, kind);
-  labels_.resize(std::max(labels_.size(), cell_capacity()));
   balls_.grow_to(cell_capacity());
   for (std::size_t i = 0; i < created_.size(); ++i) {
-    const Star::Tet& tet = star_.tets[i];
-    labels_[created_[i]] = tet.label;
-    balls_.set({created_[i], 0}, balls_.number_of(tet.outer));
+    balls_.set({created_[i], 0}, balls_.number_of(star_.tets[i].outer));
   }
   return vertex;
 }
@@ -118,6 +148,7 @@ void RestrictedDelaunay::remove(VertexId vertex) {
     for (int i = 0; i < 4; ++i) drop_ball({cell, i});
   }
   delaunay_.remove(vertex, destroyed_, created_);
+  set_kind(vertex, VertexKind::kRemoved);
   for (CellId cell : created_) describe(cell);
 }
 

@@ -1,18 +1,21 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "delaunay/delaunay3.h"
 #include "delaunay/surface_balls.h"
+#include "delaunay/walled_region.h"
 #include "delvox/core/geometry.h"
 #include "delvox/oracle/oracle.h"
 
 namespace delvox {
 
-enum class VertexKind : std::uint8_t { kCorner, kSurface, kInterior };
+enum class VertexKind : std::uint8_t { kCorner, kSurface, kInterior, kRemoved };
 
 /// Del S of a point set with the complexes restricted to an oracle's domain: a cell belongs to Del|O if its label, that
 /// of its circumcentre, is not 0, a facet to the surface if its dual edge is bipolar, that is, if the labels of its two
@@ -27,6 +30,22 @@ class RestrictedDelaunay {
 
   /// Inserts points of the surface in spatial order; all cells count as created.
   void insert_seeds(const std::vector<Point3>& seeds);
+
+  /// Inserts points inside the domain that lie in no computed surface ball and on no vertex, in spatial order: many at
+  /// once, labels being asked for at the end only. Ends early when go_on() says so. Returns their vertices, kNone for
+  /// points not inserted; created() holds all cells made.
+  std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const std::function<bool()>& go_on);
+
+  /// Sets a part of the domain aside: its cells are placeholders for a mesh of it that is known otherwise, until
+  /// take_back(). `walls`: each counter-clockwise seen from outside the part. False, and nothing is set aside, if one of
+  /// them is no facet.
+  bool set_aside(const std::vector<WalledRegion::Wall>& walls) { return aside_.enclose(delaunay_, walls); }
+  void take_back() { aside_.clear(); }
+  bool placeholder(CellId cell) const { return aside_.inside(cell); }
+  /// Would replacing these cells change what is set aside?
+  bool disturbs_aside(const std::vector<CellId>& cells) const {
+    return !aside_.empty() && std::any_of(cells.begin(), cells.end(), [&](CellId c) { return aside_.guarded(c); });
+  }
 
   std::size_t cell_capacity() const { return delaunay_.cell_capacity(); }
   std::size_t vertex_capacity() const { return delaunay_.vertex_capacity(); }
@@ -73,6 +92,7 @@ class RestrictedDelaunay {
  private:
   Label label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere) const;
   void describe(CellId cell);
+  VertexId commit_unlabelled(VertexKind kind);
   void set_kind(VertexId vertex, VertexKind kind);
   void drop_ball(FacetId facet);
 
@@ -81,6 +101,7 @@ class RestrictedDelaunay {
   std::vector<Label> labels_;
   std::vector<VertexKind> kinds_;
   SurfaceBalls balls_;
+  WalledRegion aside_;
   std::vector<CellId> created_, destroyed_;
   mutable std::vector<CellId> around_;
   Star star_;

@@ -40,6 +40,23 @@ void add_boundary(const RestrictedDelaunay& delaunay, CellId cell, Numbering& nu
   }
 }
 
+void add_deep(const DeepLattice& deep, Numbering& number, TetMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  mesh.points.insert(mesh.points.end(), deep.points.begin(), deep.points.end());
+  const auto shell = static_cast<std::uint32_t>(deep.shell.size());
+  for (const auto& corners : deep.tets) {
+    Tet tet;
+    Label label = 0;
+    for (int i = 0; i < 4; ++i) {
+      const bool is_deep = corners[i] >= shell;
+      tet[i] = is_deep ? first + corners[i] - shell : number(deep.shell[corners[i]]);
+      if (is_deep) label = deep.labels[corners[i] - shell];
+    }
+    mesh.tets.push_back(tet);
+    mesh.regions.push_back(label);
+  }
+}
+
 }  // namespace
 
 SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay) {
@@ -49,15 +66,17 @@ SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay) {
   return mesh;
 }
 
-TetMesh extract_tets(const RestrictedDelaunay& delaunay) {
+TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep) {
   TetMesh mesh;
   Numbering number(delaunay, mesh.points);
   for_each_inside_cell(delaunay, [&](CellId cell) {
+    if (delaunay.placeholder(cell)) return;
     const auto& v = delaunay.vertices(cell);
     mesh.tets.push_back({number(v[0]), number(v[1]), number(v[2]), number(v[3])});
     mesh.regions.push_back(delaunay.label(cell));
     add_boundary(delaunay, cell, number, mesh.boundary);
   });
+  if (deep != nullptr) add_deep(*deep, number, mesh);
   mesh.on_surface.assign(mesh.points.size(), 0);
   for (const Triangle& triangle : mesh.boundary) {
     for (std::uint32_t vertex : triangle) mesh.on_surface[vertex] = 1;

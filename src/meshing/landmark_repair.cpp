@@ -55,7 +55,7 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
   // A landmark that lies on the surface itself, as ties and symmetric volumes have them, asks for points ever nearer to
   // it: even without a smallest ball that must end.
   const double smallest = std::max(surface_.min_ball_radius, 1e-7 * oracle_.bounds().diagonal());
-  const Star& star = delaunay_.evaluate(p, hint);
+  const Star& star = evaluate(p, hint);
   bool too_near = star.duplicate;
   for (const Star::Tet& tet : star.tets) {
     for (VertexId vertex : tet.vertices) too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;

@@ -8,10 +8,13 @@
 #include "delvox/core/run.h"
 #include "delvox/meshing/criteria.h"
 #include "delvox/oracle/oracle.h"
+#include "meshing/deep_lattice.h"
 #include "meshing/pieces.h"
 #include "meshing/run_budget.h"
 
 namespace delvox {
+
+class InteriorLattice;
 
 /// Del S under refinement with its lazy queues (book, 14.1.3): facets that may be restricted, vertices whose umbrella
 /// may have changed, and, once watched, tetrahedra that break a criterion. Entries are not withdrawn when the mesh
@@ -34,6 +37,8 @@ class Refinement {
   /// inserted. Not in the book: trilinear surfaces have necks and gaps of any width, which no size field foresees.
   bool repair_landmarks();
 
+  /// Fills the inside with a lattice where a constant bound on circumradii leaves room for one.
+  void fill_interior(const TetCriteria& criteria);
   /// From now on tetrahedra that break `criteria` are kept in a stack.
   void watch_tets(const TetCriteria& criteria);
   /// Step 7: splits the tetrahedra on the stack until it is empty, the surface kept refined throughout.
@@ -43,6 +48,8 @@ class Refinement {
   void report_unmet();
 
   const RestrictedDelaunay& delaunay() const { return delaunay_; }
+  /// The part of the mesh that is written down without being inserted, if any.
+  const std::optional<DeepLattice>& deep() const { return deep_; }
   RunBudget& budget() { return budget_; }
 
  private:
@@ -86,7 +93,14 @@ class Refinement {
   std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b, CellId cell_b,
                                                  int halvings) const;
   std::vector<SurfaceBall> largest_balls(const Pieces& pieces) const;
-  bool budget_left() { return budget_.go_on(delaunay_.vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
+  std::size_t vertex_count() const { return delaunay_.vertex_count() + (deep_ ? deep_->points.size() : 0); }
+  bool budget_left() { return budget_.go_on(vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
+
+  // Lattice (lattice_filling.cpp)
+  const Star& evaluate(const Point3& p, CellId hint);
+  void insert_shell(InteriorLattice& lattice);
+  bool set_deep_aside();
+  void insert_deep();
 
   // Tetrahedra (tet_refinement.cpp)
   bool bad(CellId cell) const;
@@ -100,6 +114,7 @@ class Refinement {
   RunReport& report_;
   RunBudget budget_;
   RestrictedDelaunay delaunay_;
+  std::optional<DeepLattice> deep_;
 
   std::vector<WaitingFacet> facets_;  // first in, first out from next_facet_
   std::size_t next_facet_ = 0;

@@ -72,6 +72,7 @@ bool Refinement::treat_facet(FacetId facet) {
 bool Refinement::remove_interior_vertex_of(FacetId facet) {
   for (VertexId vertex : delaunay_.vertices(facet)) {
     if (delaunay_.kind(vertex) != VertexKind::kInterior) continue;
+    if (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep();
     delaunay_.remove(vertex);
     ++report_.removals;
     enqueue_created();
@@ -96,7 +97,7 @@ Refinement::Fault Refinement::fault_of(FacetId facet, const SurfaceBall& ball) c
 }
 
 bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
-  const Star& star = delaunay_.evaluate(p, hint);
+  const Star& star = evaluate(p, hint);
   if (star.duplicate) {
     ++stuck_;
     stuck_place_ = p;

@@ -23,7 +23,9 @@ void Refinement::watch_tets(const TetCriteria& criteria) {
   tets_.clear();
   for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) {
     const std::uint32_t stamp = delaunay_.stamp(cell);
-    if (stamp != 0 && delaunay_.label(cell) != 0 && bad(cell)) tets_.push_back({cell, stamp});
+    if (stamp != 0 && delaunay_.label(cell) != 0 && !delaunay_.placeholder(cell) && bad(cell)) {
+      tets_.push_back({cell, stamp});
+    }
   }
 }
 
@@ -49,7 +51,7 @@ void Refinement::refine_tets() {
 
 void Refinement::split_tet(CellId cell) {
   const Point3 z = delaunay_.sphere(cell).center;
-  const Star& star = delaunay_.evaluate(z, cell);
+  const Star& star = evaluate(z, cell);
   SurfaceBall ball;
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
   if (star.duplicate || find_encroached_ball(star, ball) || find_new_ball(star, ball)) {
