@@ -90,7 +90,7 @@ void Delaunay3::find_incident_cells(VertexId vertex, std::vector<CellId>& around
   }
 }
 
-bool Delaunay3::in_conflict(CellId cell, const Point3& p) const {
+inline bool Delaunay3::in_conflict(CellId cell, const Point3& p) const {
   const Circumsphere& sphere = cells_[cell].sphere;
   if (sphere.squared_radius > trusted_squared_radius_) {
     // The cached sphere decides unless p is near it: circumsphere() keeps nine digits, the margin asks for six.
@@ -99,6 +99,10 @@ bool Delaunay3::in_conflict(CellId cell, const Point3& p) const {
     if (squared < sphere.squared_radius - margin) return true;
     if (squared > sphere.squared_radius + margin) return false;
   }
+  return in_conflict_exactly(cell, p);
+}
+
+bool Delaunay3::in_conflict_exactly(CellId cell, const Point3& p) const {
   if (cell == kOutside) return false;
   const auto& v = cells_[cell].vertices;
   return in_sphere(point(v[0]), point(v[1]), point(v[2]), point(v[3]), p);
@@ -112,8 +116,12 @@ bool Delaunay3::is_vertex_of(CellId cell, const Point3& p) const {
 void Delaunay3::find_zone(const Point3& p, CellId start, Star& star) const {
   // Two marks per search: even epochs for cells in conflict, odd ones for cells found not to be.
   epoch_ += 2;
+  const auto add = [&](CellId cell) {
+    star.zone.push_back(cell);
+    for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
+  };
   marks_[start].visited = epoch_;
-  star.zone.push_back(start);
+  add(start);
   for (std::size_t next = 0; next < star.zone.size(); ++next) {
     const CellId cell = star.zone[next];
     for (int i = 0; i < 4; ++i) {
@@ -122,7 +130,7 @@ void Delaunay3::find_zone(const Point3& p, CellId start, Star& star) const {
       if (visited != epoch_ && visited != epoch_ + 1) {
         const bool conflict = in_conflict(neighbor, p);
         visited = conflict ? epoch_ : epoch_ + 1;
-        if (conflict) star.zone.push_back(neighbor);
+        if (conflict) add(neighbor);
       }
       if (visited != epoch_) {
         Star::Tet& tet = star.tets.emplace_back();
@@ -133,17 +141,9 @@ void Delaunay3::find_zone(const Point3& p, CellId start, Star& star) const {
   }
 }
 
-void Delaunay3::join_star_tets(Star& star) const {
-  edges_.begin(star.tets.size() * 3 / 2);
-  for (std::uint32_t t = 0; t < star.tets.size(); ++t) {
-    Star::Tet& tet = star.tets[t];
-    for (std::uint32_t i = 0; i < 3; ++i) {
-      const std::uint32_t other = edges_.match(tet.vertices[(i + 1) % 3], tet.vertices[(i + 2) % 3], 4 * t + i);
-      if (other == EdgeMatcher::kFirst) continue;
-      tet.beside[i] = other / 4;
-      star.tets[other / 4].beside[other % 4] = t;
-    }
-  }
+CellId Delaunay3::nearest_hint(const Point3& p, const std::vector<CellId>& hints) const {
+  const auto found = std::find_if(hints.begin(), hints.end(), [&](CellId cell) { return in_conflict(cell, p); });
+  return found != hints.end() ? *found : hints.front();
 }
 
 void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star) const {
@@ -157,7 +157,7 @@ void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star) const {
     return;
   }
   find_zone(p, hint, star);
-  join_star_tets(star);
+  edges_.match(star.tets);
   for (Star::Tet& tet : star.tets) {
     tet.sphere = circumsphere(p, point(tet.vertices[0]), point(tet.vertices[1]), point(tet.vertices[2]));
   }

@@ -58,6 +58,8 @@ class Delaunay3 {
   /// Cells around a vertex other than a corner, in an order that depends on the triangulation alone.
   void find_incident_cells(VertexId vertex, std::vector<CellId>& cells) const;
 
+  /// Among cells near p, one that its insertion would destroy, or else the first.
+  CellId nearest_hint(const Point3& p, const std::vector<CellId>& hints) const;
   /// What would inserting p do? Labels of the star are not set. `hint` is a cell near p.
   void evaluate(const Point3& p, CellId hint, Star& star) const;
   /// Whether the cell belongs to the zone of the star evaluated last. pre: no other search since.
@@ -89,9 +91,9 @@ class Delaunay3 {
   void clear();
   void make_first_cell();
   bool in_conflict(CellId cell, const Point3& p) const;
+  bool in_conflict_exactly(CellId cell, const Point3& p) const;
   bool is_vertex_of(CellId cell, const Point3& p) const;
   void find_zone(const Point3& p, CellId start, Star& star) const;
-  void join_star_tets(Star& star) const;
   VertexId new_vertex(const Point3& p);
   CellId new_cell();
   void set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere);

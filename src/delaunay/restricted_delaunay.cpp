@@ -27,12 +27,11 @@ void RestrictedDelaunay::set_kind(VertexId vertex, VertexKind kind) {
 }
 
 void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds) {
-  CellId hint = delaunay_.cell_of(0);
+  created_.assign(1, delaunay_.cell_of(0));
   for (std::uint32_t i : spatial_order(seeds)) {
-    delaunay_.evaluate(seeds[i], hint, star_);
+    delaunay_.evaluate(seeds[i], delaunay_.nearest_hint(seeds[i], created_), star_);
     if (star_.duplicate) continue;
     set_kind(delaunay_.commit(star_, created_), VertexKind::kSurface);
-    hint = created_.front();
   }
   created_.clear();
   for (CellId cell = Delaunay3::kOutside + 1; cell < delaunay_.cell_capacity(); ++cell) {
@@ -45,12 +44,11 @@ std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Poin
                                                           const std::function<bool()>& go_on) {
   std::vector<VertexId> vertices(points.size(), kNone);
   const std::uint32_t first_stamp = delaunay_.next_stamp();
-  CellId hint = delaunay_.cell_of(0);
+  created_.assign(1, delaunay_.cell_of(0));
   for (std::uint32_t i : spatial_order(points)) {
     if (!go_on()) break;
-    delaunay_.evaluate(points[i], hint, star_);
+    delaunay_.evaluate(points[i], delaunay_.nearest_hint(points[i], created_), star_);
     vertices[i] = commit_unlabelled(VertexKind::kInterior);
-    hint = created_.front();
   }
   created_.clear();
   for (CellId cell = 0; cell < cell_capacity(); ++cell) {

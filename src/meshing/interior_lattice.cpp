@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/hash.h"
+#include "meshing/lattice_rows.h"
 
 namespace delvox {
 namespace {
@@ -14,30 +15,60 @@ constexpr double kCube = 1.45;
 /// A tet's circumsphere reaches 0.654 cubes from its corners at most: no vertex that far from all sites disturbs it.
 constexpr double kClearance = 0.68;
 constexpr double kJitter = 0.01;
-constexpr std::size_t kMostSites = std::size_t{1} << 28;
-
-constexpr int next_axis(int axis) { return (axis + 1) % 3; }
+constexpr double kMostSites = 1 << 30;
+/// Cubes all around, so that a site inside has all of its neighbours.
+constexpr int kRim = 2;
 
 }  // namespace
 
-InteriorLattice::InteriorLattice(const Oracle& oracle, const RestrictedDelaunay& delaunay, double cell_size,
-                                 const std::function<bool()>& go_on)
-    : cube_(kCube * cell_size) {
+InteriorLattice::InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size) : cube_(kCube * cell_size) {
+  if (!lay_out(delaunay)) return;
+  find_inside(delaunay);
+  block_near_surface(delaunay);
+  find_depths();
+}
+
+bool InteriorLattice::lay_out(const RestrictedDelaunay& delaunay) {
   Box3 box;
   for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
     if (delaunay.kind(v) == VertexKind::kSurface) box.extend(delaunay.point(v));
   }
-  if (box.empty()) return;
-  // A rim of cubes all around, so that a site inside has all of its neighbours.
+  if (box.empty()) return false;
+  origin_ = box.min - Vector3{kRim * cube_, kRim * cube_, kRim * cube_};
   double sites = 2;
-  origin_ = box.min - Vector3{2 * cube_, 2 * cube_, 2 * cube_};
   for (int axis = 0; axis < 3; ++axis) {
-    const double count = std::ceil((box.max[axis] - box.min[axis]) / cube_) + 4;
-    counts_[axis] = static_cast<std::int32_t>(std::min(count, 1e9));
+    const double count = std::ceil((box.max[axis] - box.min[axis]) / cube_) + 2 * kRim;
     sites *= count;
+    if (sites > kMostSites) return false;
+    counts_[axis] = static_cast<std::int32_t>(count);
   }
-  if (sites > kMostSites) return;  // refinement does without a lattice, as it does where a size field varies
-  state_.assign(static_cast<std::size_t>(sites), kDeep);
+  stride_ = {1, static_cast<Site>(counts_[0]), static_cast<Site>(counts_[0] * counts_[1])};
+  cubes_ = stride_[2] * counts_[2];
+  state_.assign(2 * std::size_t{cubes_}, kBlocked);
+  return true;
+}
+
+void InteriorLattice::find_inside(const RestrictedDelaunay& delaunay) {
+  for (const bool centre : {false, true}) {
+    const LatticeRows rows{origin_, cube_, centre ? 0.5 : 0.0, counts_[1], counts_[2]};
+    const RowCrossings found = find_row_crossings(delaunay, rows);
+    for (Site row = 0; row + 1 < found.first.size(); ++row) {
+      const Site row_start = (centre ? cubes_ : 0) + row * stride_[1];
+      for (std::uint32_t c = found.first[row]; c + 1 < found.first[row + 1]; ++c) {
+        if (found.crossings[c].label == 0) continue;
+        const auto place = [&](double x) { return (x - origin_.x) / cube_ - (centre ? 0.5 : 0.0); };
+        const auto end = static_cast<Site>(std::ceil(place(found.crossings[c + 1].x)));
+        for (auto i = static_cast<Site>(std::ceil(place(found.crossings[c].x))); i < end; ++i) {
+          inside_.push_back(row_start + i);
+          labels_.push_back(found.crossings[c].label);
+          state_[row_start + i] = kDeep;
+        }
+      }
+    }
+  }
+}
+
+void InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
   for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
     if (delaunay.kind(v) == VertexKind::kSurface) block_around(delaunay.point(v), kClearance * cube_);
   }
@@ -47,87 +78,71 @@ InteriorLattice::InteriorLattice(const Oracle& oracle, const RestrictedDelaunay&
       if (ball != nullptr && delaunay.label(cell) != 0) block_around(ball->center, std::sqrt(ball->squared_radius));
     }
   }
-  if (find_inside(oracle, go_on)) find_depths();
-}
-
-Point3 InteriorLattice::unjittered(const Cube& cube, int which) const {
-  const double half = 0.5 * which;
-  return origin_ + cube_ * Vector3{cube[0] + half, cube[1] + half, cube[2] + half};
-}
-
-InteriorLattice::Cube InteriorLattice::cube_of(Site site) const {
-  const Site cube = site / 2;
-  const Site row = cube / counts_[0];
-  return {static_cast<std::int32_t>(cube % counts_[0]), static_cast<std::int32_t>(row % counts_[1]),
-          static_cast<std::int32_t>(row / counts_[1])};
-}
-
-Point3 InteriorLattice::point(Site site) const {
-  Point3 p = unjittered(cube_of(site), site % 2);
-  std::uint64_t hash = mix_hash(site);
-  for (int axis = 0; axis < 3; ++axis, hash = mix_hash(hash)) p[axis] += kJitter * cube_ * (2 * unit_interval(hash) - 1);
-  return p;
 }
 
 void InteriorLattice::block_around(const Point3& p, double radius) {
-  Cube low, high, at;
-  const double reach = (radius + 2 * kJitter * cube_) / cube_;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double u = (p[axis] - origin_[axis]) / cube_;
-    low[axis] = std::max(0, static_cast<std::int32_t>(std::floor(u - reach - 0.5)));
-    high[axis] = std::min(counts_[axis] - 1, static_cast<std::int32_t>(std::floor(u + reach)));
-  }
-  for (at[2] = low[2]; at[2] <= high[2]; ++at[2]) {
-    for (at[1] = low[1]; at[1] <= high[1]; ++at[1]) {
-      for (at[0] = low[0]; at[0] <= high[0]; ++at[0]) {
-        for (int which = 0; which < 2; ++which) {
-          const bool near = squared_distance(unjittered(at, which), p) < reach * reach * cube_ * cube_;
-          if (near) state_[site(at, which)] = kBlocked;
-        }
+  const double reach = radius + 2 * kJitter * cube_;
+  for (const bool centre : {false, true}) {
+    const auto range = [&](int axis, double half_width) {
+      const double place = (p[axis] - origin_[axis]) / cube_ - (centre ? 0.5 : 0.0);
+      return std::array{std::max(0, static_cast<std::int32_t>(std::ceil(place - half_width / cube_))),
+                        std::min(counts_[axis] - 1, static_cast<std::int32_t>(std::floor(place + half_width / cube_)))};
+    };
+    const auto [k0, k1] = range(2, reach);
+    const auto [j0, j1] = range(1, reach);
+    for (std::int32_t k = k0; k <= k1; ++k) {
+      for (std::int32_t j = j0; j <= j1; ++j) {
+        const double dy = coordinate(1, j, centre) - p.y, dz = coordinate(2, k, centre) - p.z;
+        const double left = reach * reach - dy * dy - dz * dz;
+        if (left < 0) continue;
+        const auto [i0, i1] = range(0, std::sqrt(left));
+        const Site row = (centre ? cubes_ : 0) + k * stride_[2] + j * stride_[1];
+        for (std::int32_t i = i0; i <= i1; ++i) state_[row + i] = kBlocked;
       }
     }
   }
 }
 
-bool InteriorLattice::find_inside(const Oracle& oracle, const std::function<bool()>& go_on) {
-  constexpr Site kSitesPerLook = 1 << 12;
-  for (Site s = 0; s < state_.size(); ++s) {
-    if (s % kSitesPerLook == 0 && !go_on()) return false;
-    if (state_[s] != kBlocked && oracle.label(point(s)) == 0) state_[s] = kBlocked;
+Point3 InteriorLattice::point(Site site) const {
+  const bool centre = is_centre(site);
+  const Site cube = centre ? site - cubes_ : site;
+  std::uint64_t hash = site;
+  Point3 p;
+  for (int axis = 0; axis < 3; ++axis) {
+    hash = mix_hash(hash);
+    p[axis] = coordinate(axis, cube / stride_[axis] % counts_[axis], centre) +
+              kJitter * cube_ * (2 * unit_interval(hash) - 1);
   }
-  return true;
+  return p;
 }
 
-/// Is one of the 14 sites around it in that state?
-bool InteriorLattice::touches(int state, const Cube& c, int which) const {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (int step : {-1, 1}) {
-      Cube other = c;
-      other[axis] += step;
-      if (state_[site(other, which)] == state) return true;
-    }
+/// Is one of the 14 sites around it at that depth?
+bool InteriorLattice::touches(int depth, Site site) const {
+  for (Site step : stride_) {
+    if (state_[site - step] == depth || state_[site + step] == depth) return true;
   }
-  const int step = which == 0 ? -1 : 1;
+  // The other kind's sites around a centre are its cube's corners, those around a corner lie the other way.
+  const Site low = is_centre(site) ? site - cubes_ : site + cubes_ - stride_[0] - stride_[1] - stride_[2];
   for (int corner = 0; corner < 8; ++corner) {
-    const Cube other{c[0] + step * (corner & 1), c[1] + step * (corner >> 1 & 1), c[2] + step * (corner >> 2)};
-    if (state_[site(other, 1 - which)] == state) return true;
+    const Site other = low + (corner & 1) * stride_[0] + (corner >> 1 & 1) * stride_[1] + (corner >> 2) * stride_[2];
+    if (state_[other] == depth) return true;
   }
   return false;
 }
 
 void InteriorLattice::find_depths() {
   for (int depth = kBlocked; depth + 1 < kDeep; ++depth) {
-    for (Site s = 0; s < state_.size(); ++s) {
-      if (state_[s] == kDeep && touches(depth, cube_of(s), s % 2)) state_[s] = static_cast<std::uint8_t>(depth + 1);
+    for (Site s : inside_) {
+      if (is_deep(s) && touches(depth, s)) state_[s] = static_cast<std::uint8_t>(depth + 1);
     }
   }
   std::vector<ShellSite> known;
   known.swap(shell_);
   deep_.clear();
   auto next_known = known.begin();
-  for (Site s = 0; s < state_.size(); ++s) {
-    if (state_[s] == kDeep) deep_.push_back(s);
-    if (state_[s] == kBlocked || state_[s] == kDeep) continue;
+  for (Site s : inside_) {
+    if (is_deep(s)) deep_.push_back(s);
+    if (is_deep(s) || state_[s] == kBlocked) continue;
     while (next_known != known.end() && next_known->site < s) ++next_known;
     const bool is_known = next_known != known.end() && next_known->site == s;
     shell_.push_back({s, is_known ? next_known->vertex : kNone});
@@ -142,8 +157,8 @@ bool InteriorLattice::block_removed(const RestrictedDelaunay& delaunay) {
     any |= gone;
   }
   if (!any) return false;
-  for (std::uint8_t& state : state_) {
-    if (state != kBlocked) state = kDeep;
+  for (Site s : inside_) {
+    if (state_[s] != kBlocked) state_[s] = kDeep;
   }
   find_depths();
   return true;
@@ -151,19 +166,12 @@ bool InteriorLattice::block_removed(const RestrictedDelaunay& delaunay) {
 
 /// The tets along the edge from a site to the next of its kind: one for each pair of neighbours in the ring of four
 /// sites of the other kind around the edge's middle.
-std::array<std::array<InteriorLattice::Site, 4>, 4> InteriorLattice::tets_along(const Cube& cube, int which,
-                                                                                int axis) const {
-  const int u = next_axis(axis), v = next_axis(u);
-  Cube other = cube;
-  ++other[axis];
-  Cube low = which == 1 ? other : cube;  // of the ring
-  if (which == 0) --low[u], --low[v];
-  Cube low_u = low, low_v = low, high = low;
-  ++low_u[u], ++low_v[v], ++high[u], ++high[v];
-  const std::array<Site, 4> ring{site(low, 1 - which), site(low_u, 1 - which), site(high, 1 - which),
-                                 site(low_v, 1 - which)};
+std::array<InteriorLattice::Tet, 4> InteriorLattice::tets_along(Site site, int axis) const {
+  const Site next = site + stride_[axis], u = stride_[(axis + 1) % 3], v = stride_[(axis + 2) % 3];
+  const Site low = is_centre(site) ? next - cubes_ : site + cubes_ - u - v;
+  const std::array<Site, 4> ring{low, low + u, low + u + v, low + v};
   std::array<Tet, 4> tets;
-  for (int i = 0; i < 4; ++i) tets[i] = {site(cube, which), site(other, which), ring[i], ring[(i + 1) % 4]};
+  for (int i = 0; i < 4; ++i) tets[i] = {site, next, ring[i], ring[(i + 1) % 4]};
   return tets;
 }
 
@@ -171,10 +179,8 @@ template <class Visit>
 void InteriorLattice::for_each_deep_tet(const Visit& visit) const {
   for (Site s : deep_) {
     for (int axis = 0; axis < 3; ++axis) {
-      for (int back = 0; back < 2; ++back) {
-        Cube start = cube_of(s);
-        start[axis] -= back;
-        for (const Tet& tet : tets_along(start, s % 2, axis)) {
+      for (const Site start : {s, s - stride_[axis]}) {
+        for (const Tet& tet : tets_along(start, axis)) {
           // Each is met from all of its deep corners.
           const bool first = std::none_of(tet.begin(), tet.end(), [&](Site c) { return c < s && is_deep(c); });
           if (first) visit(tet);
@@ -184,17 +190,18 @@ void InteriorLattice::for_each_deep_tet(const Visit& visit) const {
   }
 }
 
-DeepLattice InteriorLattice::deep(const Oracle& oracle) const {
+DeepLattice InteriorLattice::deep() const {
   DeepLattice result;
   std::vector<std::uint32_t> number(state_.size());
   for (const ShellSite& shell : shell_) {
     number[shell.site] = static_cast<std::uint32_t>(result.shell.size());
     result.shell.push_back(shell.vertex);
   }
-  for (Site s : deep_) {
-    number[s] = static_cast<std::uint32_t>(shell_.size() + result.points.size());
-    result.points.push_back(point(s));
-    result.labels.push_back(oracle.label(result.points.back()));
+  for (std::size_t i = 0; i < inside_.size(); ++i) {
+    if (!is_deep(inside_[i])) continue;
+    number[inside_[i]] = static_cast<std::uint32_t>(shell_.size() + result.points.size());
+    result.points.push_back(point(inside_[i]));
+    result.labels.push_back(labels_[i]);
   }
   for_each_deep_tet([&](const Tet& tet) {
     result.tets.push_back({number[tet[0]], number[tet[1]], number[tet[2]], number[tet[3]]});

@@ -8,7 +8,7 @@ namespace delvox {
 
 void Refinement::fill_interior(const TetCriteria& criteria) {
   if (!criteria.cell_size.constant() || !budget_left()) return;
-  InteriorLattice lattice(oracle_, delaunay_, criteria.cell_size.maximum(), [this] { return budget_left(); });
+  InteriorLattice lattice(delaunay_, criteria.cell_size.maximum());
   // A run that is to stop there anyway stops with refined tets rather than with half a lattice.
   if (!budget_.room_for(vertex_count() + lattice.site_count())) return;
   do {
@@ -16,7 +16,7 @@ void Refinement::fill_interior(const TetCriteria& criteria) {
     refine_surface();  // step 2 removes the sites that disturb the surface
     if (!budget_left()) return;
   } while (lattice.block_removed(delaunay_));
-  deep_ = lattice.deep(oracle_);
+  deep_ = lattice.deep();
   report_.interior_insertions += deep_->points.size();
   if (!set_deep_aside()) insert_deep();
 }
