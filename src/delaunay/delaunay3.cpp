@@ -1,6 +1,7 @@
 #include "delaunay/delaunay3.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "delaunay/hole_filling.h"
 #include "delaunay/predicates.h"
@@ -26,6 +27,9 @@ Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds) {
   // filter's margin.
   const double smallest_trusted = std::max(1e-6 * bounds.diagonal(), 1e-8 * (norm(bounds.min) + norm(bounds.max)));
   trusted_squared_radius_ = smallest_trusted * smallest_trusted;
+  // The determinant is a sum of six products of three differences, none larger than the box: some 50 roundings in all.
+  const Vector3 extent = bounds.max - bounds.min;
+  orientation_error_ = 1e-14 * extent.x * extent.y * extent.z;
   make_first_cell();
 }
 
@@ -65,14 +69,23 @@ CellId Delaunay3::locate(const Point3& p, CellId hint) const {
     for (int i = 0; i < 4 && !moved; ++i) {
       const CellId next = cells_[cell].neighbors[i];
       if (next == came_from || next == kOutside) continue;
-      const auto v = vertices(FacetId{cell, i});
-      if (orientation(point(v[0]), point(v[1]), point(v[2]), p) <= 0) continue;
+      if (!is_beyond({cell, i}, p)) continue;
       came_from = cell;
       cell = next;
       moved = true;
     }
   }
   return cell;
+}
+
+bool Delaunay3::is_beyond(FacetId facet, const Point3& p) const {
+  const auto v = vertices(facet);
+  const Point3 &a = point(v[0]), &b = point(v[1]), &c = point(v[2]);
+  if (std::min({v[0], v[1], v[2]}) >= kCorners) {
+    const double six_volumes = dot(cross(b - a, c - a), p - a);
+    if (std::abs(six_volumes) > orientation_error_) return six_volumes > 0;
+  }
+  return orientation(a, b, c, p) > 0;
 }
 
 void Delaunay3::find_incident_cells(VertexId vertex, std::vector<CellId>& around) const {

@@ -93,6 +93,7 @@ class Delaunay3 {
   bool in_conflict(CellId cell, const Point3& p) const;
   bool in_conflict_exactly(CellId cell, const Point3& p) const;
   bool is_vertex_of(CellId cell, const Point3& p) const;
+  bool is_beyond(FacetId facet, const Point3& p) const;
   void find_zone(const Point3& p, CellId start, Star& star) const;
   VertexId new_vertex(const Point3& p);
   CellId new_cell();
@@ -105,7 +106,7 @@ class Delaunay3 {
   std::vector<Vertex> vertices_;
   std::vector<CellId> free_cells_;
   std::vector<VertexId> free_vertices_;
-  double trusted_squared_radius_ = 0;
+  double trusted_squared_radius_ = 0, orientation_error_ = 0;
   std::uint32_t next_stamp_ = 1;
   mutable std::uint32_t epoch_ = 0;
   mutable EdgeMatcher edges_;

@@ -31,6 +31,7 @@ bool Refinement::repair_landmark(std::size_t index, CellId hint) {
   LandmarkPlace& place = landmark_places_[index];
   place.cell = delaunay_.locate(landmark, hint);
   place.lost = false;
+  place.moved = true;
   const auto p = crossing_beside(landmark, place.cell);
   const bool inserted = p && insert_for_landmark(*p, place.cell);
   if (inserted) {
@@ -70,12 +71,17 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
 /// too. What to insert is found before anything is inserted; what an earlier insertion has cured is left out.
 bool Refinement::repair_links() {
   std::vector<MisplacedCell> misplaced;
-  for (const auto& [a, b] : landmarks_.links) {
-    constexpr int kHalvings = 16;
+  link_paths_.resize(landmarks_.links.size());
+  for (std::size_t i = 0; i < landmarks_.links.size(); ++i) {
+    if (unchanged(i)) continue;
+    const auto& [a, b] = landmarks_.links[i];
+    link_paths_[i] = {};
     const auto place = misplaced_on_link(landmarks_.points[a], landmark_places_[a].cell, landmarks_.points[b],
-                                         landmark_places_[b].cell, kHalvings);
+                                         landmark_places_[b].cell, link_paths_[i]);
     if (place) misplaced.push_back(*place);
+    link_paths_[i].clear = !place;
   }
+  for (LandmarkPlace& place : landmark_places_) place.moved = false;
   bool inserted = false;
   for (const MisplacedCell& place : misplaced) {
     if (delaunay_.alive(place.cell, place.stamp)) inserted |= insert_for_landmark(place.crossing, place.cell);
@@ -83,17 +89,31 @@ bool Refinement::repair_links() {
   return inserted;
 }
 
+/// Was the link clear when last looked at, and are the cells that it was found to run through still there?
+bool Refinement::unchanged(std::size_t link) const {
+  const auto& [a, b] = landmarks_.links[link];
+  const LinkPath& path = link_paths_[link];
+  if (!path.clear || path.length > path.cells.size()) return false;
+  if (landmark_places_[a].moved || landmark_places_[b].moved) return false;
+  return std::all_of(path.cells.begin(), path.cells.begin() + path.length,
+                     [this](const WaitingTet& known) { return delaunay_.alive(known.cell, known.stamp); });
+}
+
 /// A cell of the other label on the link from a in one cell to b in another: halves the link until its ends lie in one
-/// cell or in neighbours.
+/// cell or in neighbours. Adds the cells between to the path.
 std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b,
-                                                                       CellId cell_b, int halvings) const {
+                                                                       CellId cell_b, LinkPath& path) const {
+  constexpr std::uint32_t kLongest = 1000;
   const auto& near = delaunay_.neighbors(cell_a);
-  if (cell_a == cell_b || std::count(near.begin(), near.end(), cell_b) > 0 || halvings == 0) return std::nullopt;
+  if (cell_a == cell_b || std::count(near.begin(), near.end(), cell_b) > 0 || path.length > kLongest) return std::nullopt;
   const Point3 middle = midpoint(a, b);
+  if (middle == a || middle == b) return std::nullopt;
   const CellId cell = delaunay_.locate(middle, cell_a);
   if (const auto p = crossing_beside(middle, cell)) return MisplacedCell{*p, cell, delaunay_.stamp(cell)};
-  if (const auto found = misplaced_on_link(a, cell_a, middle, cell, halvings - 1)) return found;
-  return misplaced_on_link(middle, cell, b, cell_b, halvings - 1);
+  if (path.length < path.cells.size()) path.cells[path.length] = {cell, delaunay_.stamp(cell)};
+  ++path.length;
+  if (const auto found = misplaced_on_link(a, cell_a, middle, cell, path)) return found;
+  return misplaced_on_link(middle, cell, b, cell_b, path);
 }
 
 /// With every link in place: splits the balls of pieces without landmarks, which are not real, one for each piece.

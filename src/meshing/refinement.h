@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -61,9 +62,16 @@ class Refinement {
     CellId cell;
     std::uint32_t stamp;
   };
+  /// Cells that a link runs through between those of its ends.
+  struct LinkPath {
+    std::array<WaitingTet, 4> cells;
+    std::uint32_t length = 0;  ///< may be more than is kept
+    bool clear = false;        ///< all of the right label
+  };
   struct LandmarkPlace {
     CellId cell = kNone;
     std::uint32_t stamp = 0;
+    bool moved = false;  ///< found in another cell since links were last looked at
     bool lost = false;  ///< on the wrong side, and nothing can be inserted for it
   };
   /// A cell whose label is not that of the link through it, and a crossing inside its sphere.
@@ -89,9 +97,10 @@ class Refinement {
   std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell) const;
   bool insert_for_landmark(const Point3& p, CellId hint);
   bool repair_links();
+  bool unchanged(std::size_t link) const;
   bool repair_pieces();
   std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b, CellId cell_b,
-                                                 int halvings) const;
+                                                 LinkPath& path) const;
   std::vector<SurfaceBall> largest_balls(const Pieces& pieces) const;
   std::size_t vertex_count() const { return delaunay_.vertex_count() + (deep_ ? deep_->points.size() : 0); }
   bool budget_left() { return budget_.go_on(vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
@@ -123,6 +132,7 @@ class Refinement {
   std::vector<std::uint8_t> is_dirty_;
   Landmarks landmarks_;
   std::vector<LandmarkPlace> landmark_places_;
+  std::vector<LinkPath> link_paths_;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
   Point3 deviant_place_, stuck_place_, lost_place_;
