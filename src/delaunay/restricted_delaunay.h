@@ -66,6 +66,8 @@ class RestrictedDelaunay {
   const Point3& point(VertexId vertex) const { return delaunay_.point(vertex); }
   /// Cells around a vertex, in an order that depends on the triangulation alone. Valid until the next call.
   const std::vector<CellId>& incident_cells(VertexId vertex) const;
+  /// Some cell at the vertex.
+  CellId cell_of(VertexId vertex) const { return delaunay_.cell_of(vertex); }
   /// The cell that contains p, by a walk from `hint`.
   CellId locate(const Point3& p, CellId hint) const { return delaunay_.locate(p, hint); }
 
@@ -82,6 +84,8 @@ class RestrictedDelaunay {
 
   /// What would inserting p do? `hint` is a cell near p. The reference is valid until the next call.
   const Star& evaluate(const Point3& p, CellId hint);
+  /// Whether the cell belongs to the zone of the star evaluated last. pre: no other search since.
+  bool in_zone(CellId cell) const { return delaunay_.in_zone(cell); }
   /// Inserts the apex of the star evaluated last; created() holds the new cells. pre: !star.duplicate.
   VertexId commit(VertexKind kind);
   /// Removes an interior vertex; created() holds the cells that fill the hole.

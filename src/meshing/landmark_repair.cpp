@@ -7,40 +7,40 @@
 namespace delvox {
 
 bool Refinement::repair_landmarks() {
-  if (landmarks_.points.empty()) return false;
-  landmark_places_.resize(landmarks_.points.size());
+  if (watch_.empty()) return false;
+  landmark_places_.resize(watch_.size());
+  const std::vector<LandmarkWatch::Due> due = watch_.take_due();
+  watch_.await_links_of(due);
   bool inserted = false;
-  lost_landmarks_ = 0;
-  CellId hint = delaunay_.created().front();
-  for (std::size_t i = 0; i < landmarks_.points.size(); ++i) {
+  for (const LandmarkWatch::Due& landmark : due) {
     if (!budget_left()) return inserted;
-    LandmarkPlace& place = landmark_places_[i];
-    // Most cells outlive a round of repairs, and with them what was found of their landmarks.
-    if (place.cell == kNone || !delaunay_.alive(place.cell, place.stamp)) inserted |= repair_landmark(i, hint);
-    if (place.lost) {
-      ++lost_landmarks_;
-      lost_place_ = landmarks_.points[i];
-    }
-    hint = place.cell;
+    inserted |= repair_landmark(landmark);
   }
   return inserted || repair_links() || repair_pieces();
 }
 
-bool Refinement::repair_landmark(std::size_t index, CellId hint) {
-  const Point3& landmark = landmarks_.points[index];
-  LandmarkPlace& place = landmark_places_[index];
-  place.cell = delaunay_.locate(landmark, hint);
-  place.lost = false;
-  place.moved = true;
-  const auto p = crossing_beside(landmark, place.cell);
-  const bool inserted = p && insert_for_landmark(*p, place.cell);
-  if (inserted) {
-    place.cell = delaunay_.created().front();
-    place.stamp = 0;  // to be looked for again
-  } else {
-    place.stamp = delaunay_.stamp(place.cell);
-    place.lost = p.has_value();
-  }
+/// The cell that holds a landmark, looked for only if the one known is gone.
+CellId Refinement::cell_of_landmark(const LandmarkWatch::Due& due) {
+  LandmarkPlace& place = landmark_places_[due.landmark];
+  if (place.cell != kNone && delaunay_.alive(place.cell, place.stamp)) return place.cell;
+  const bool vertex_known = due.near != kNone && delaunay_.kind(due.near) != VertexKind::kRemoved;
+  if (vertex_known) last_located_ = delaunay_.cell_of(due.near);
+  const bool last_known = delaunay_.stamp(last_located_) != 0 && last_located_ != RestrictedDelaunay::kBeyond;
+  place.cell = delaunay_.locate(watch_.point(due.landmark), last_known ? last_located_ : delaunay_.created().front());
+  place.stamp = delaunay_.stamp(place.cell);
+  last_located_ = place.cell;
+  return place.cell;
+}
+
+bool Refinement::repair_landmark(const LandmarkWatch::Due& due) {
+  const CellId cell = cell_of_landmark(due);
+  const auto p = crossing_beside(watch_.point(due.landmark), cell);
+  const bool inserted = p && insert_for_landmark(*p, cell);
+  LandmarkPlace& place = landmark_places_[due.landmark];
+  lost_landmarks_ -= place.lost;
+  place.lost = p && !inserted;
+  lost_landmarks_ += place.lost;
+  if (place.lost) lost_place_ = watch_.point(due.landmark);
   return inserted;
 }
 
@@ -71,17 +71,13 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
 /// too. What to insert is found before anything is inserted; what an earlier insertion has cured is left out.
 bool Refinement::repair_links() {
   std::vector<MisplacedCell> misplaced;
-  link_paths_.resize(landmarks_.links.size());
-  for (std::size_t i = 0; i < landmarks_.links.size(); ++i) {
-    if (unchanged(i)) continue;
-    const auto& [a, b] = landmarks_.links[i];
-    link_paths_[i] = {};
-    const auto place = misplaced_on_link(landmarks_.points[a], landmark_places_[a].cell, landmarks_.points[b],
-                                         landmark_places_[b].cell, link_paths_[i]);
+  for (std::uint32_t link : watch_.take_links()) {
+    const auto [a, b] = watch_.link(link);
+    const CellId cell_a = cell_of_landmark({a}), cell_b = cell_of_landmark({b});
+    constexpr int kHalvings = 16;
+    const auto place = misplaced_on_link(watch_.point(a), cell_a, watch_.point(b), cell_b, kHalvings);
     if (place) misplaced.push_back(*place);
-    link_paths_[i].clear = !place;
   }
-  for (LandmarkPlace& place : landmark_places_) place.moved = false;
   bool inserted = false;
   for (const MisplacedCell& place : misplaced) {
     if (delaunay_.alive(place.cell, place.stamp)) inserted |= insert_for_landmark(place.crossing, place.cell);
@@ -89,57 +85,95 @@ bool Refinement::repair_links() {
   return inserted;
 }
 
-/// Was the link clear when last looked at, and are the cells that it was found to run through still there?
-bool Refinement::unchanged(std::size_t link) const {
-  const auto& [a, b] = landmarks_.links[link];
-  const LinkPath& path = link_paths_[link];
-  if (!path.clear || path.length > path.cells.size()) return false;
-  if (landmark_places_[a].moved || landmark_places_[b].moved) return false;
-  return std::all_of(path.cells.begin(), path.cells.begin() + path.length,
-                     [this](const WaitingTet& known) { return delaunay_.alive(known.cell, known.stamp); });
-}
-
 /// A cell of the other label on the link from a in one cell to b in another: halves the link until its ends lie in one
-/// cell or in neighbours. Adds the cells between to the path.
+/// cell or in neighbours.
 std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b,
-                                                                       CellId cell_b, LinkPath& path) const {
-  constexpr std::uint32_t kLongest = 1000;
+                                                                       CellId cell_b, int halvings) const {
   const auto& near = delaunay_.neighbors(cell_a);
-  if (cell_a == cell_b || std::count(near.begin(), near.end(), cell_b) > 0 || path.length > kLongest) return std::nullopt;
+  if (cell_a == cell_b || std::count(near.begin(), near.end(), cell_b) > 0 || halvings == 0) return std::nullopt;
   const Point3 middle = midpoint(a, b);
-  if (middle == a || middle == b) return std::nullopt;
   const CellId cell = delaunay_.locate(middle, cell_a);
   if (const auto p = crossing_beside(middle, cell)) return MisplacedCell{*p, cell, delaunay_.stamp(cell)};
-  if (path.length < path.cells.size()) path.cells[path.length] = {cell, delaunay_.stamp(cell)};
-  ++path.length;
-  if (const auto found = misplaced_on_link(a, cell_a, middle, cell, path)) return found;
-  return misplaced_on_link(middle, cell, b, cell_b, path);
+  if (const auto found = misplaced_on_link(a, cell_a, middle, cell, halvings - 1)) return found;
+  return misplaced_on_link(middle, cell, b, cell_b, halvings - 1);
 }
 
 /// With every link in place: splits the balls of pieces without landmarks, which are not real, one for each piece.
 bool Refinement::repair_pieces() {
-  std::vector<CellId> landmark_cells;
-  for (const LandmarkPlace& place : landmark_places_) landmark_cells.push_back(place.cell);
+  if (!pieces_changed_) return false;
+  pieces_changed_ = false;
+  const Pieces pieces = find_pieces(delaunay_);
+  std::vector<bool> real(pieces.count, false);
+  std::uint32_t unknown = pieces.count;
+  for (std::uint32_t i = 0; i < watch_.size() && unknown > 0; ++i) {
+    const std::uint32_t piece = pieces.of_cell[cell_of_landmark({i})];
+    unknown -= !real[piece];
+    real[piece] = true;
+  }
+  if (unknown == 0) return false;
   bool inserted = false;
-  for (const SurfaceBall& ball : largest_balls(find_pieces(delaunay_, landmark_cells))) {
+  for (const SurfaceBall& ball : largest_balls(pieces, real)) {
     if (ball.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) continue;
     inserted |= insert_for_landmark(ball.center, delaunay_.created().front());
   }
   return inserted;
 }
 
-std::vector<SurfaceBall> Refinement::largest_balls(const Pieces& pieces) const {
-  std::vector<SurfaceBall> largest(pieces.count - pieces.reached);
+/// The largest ball of each piece that is not real, the others' being empty.
+std::vector<SurfaceBall> Refinement::largest_balls(const Pieces& pieces, const std::vector<bool>& real) const {
+  std::vector<SurfaceBall> largest(pieces.count);
   for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) {
     const std::uint32_t piece = pieces.of_cell[cell];
-    if (piece == kNone || piece < pieces.reached) continue;
+    if (piece == kNone || real[piece] || !delaunay_.has_balls(cell)) continue;
     for (int i = 0; i < 4; ++i) {
       const SurfaceBall* ball = delaunay_.ball({cell, i});
-      SurfaceBall& best = largest[piece - pieces.reached];
-      if (ball != nullptr && ball->squared_radius > best.squared_radius) best = *ball;
+      if (ball != nullptr && ball->squared_radius > largest[piece].squared_radius) largest[piece] = *ball;
     }
   }
   return largest;
+}
+
+void Refinement::note_change(const Box3& box, VertexId near) {
+  watch_.note_change(box, near);
+  pieces_changed_ = true;
+}
+
+/// What changes its label lies between restricted triangles that go and others that come.
+Box3 Refinement::box_of_change(const Star& star) const {
+  Box3 box;
+  box.extend(star.apex);
+  const auto extend = [&](const std::array<VertexId, 3>& triangle) {
+    for (VertexId v : triangle) box.extend(delaunay_.point(v));
+  };
+  for (CellId cell : star.zone) {
+    for (int i = 0; i < 4; ++i) {
+      const bool goes = delaunay_.bipolar({cell, i}) && delaunay_.in_zone(delaunay_.neighbors(cell)[i]);
+      if (goes) extend(delaunay_.vertices(FacetId{cell, i}));
+    }
+  }
+  for (const Star::Tet& tet : star.tets) {
+    const bool at_beyond = tet.outer.cell == RestrictedDelaunay::kBeyond;
+    if (!at_beyond && delaunay_.label(delaunay_.mirror(tet.outer).cell) != tet.label) extend(tet.vertices);
+    for (int i = 0; i < 3; ++i) {
+      if (star.tets[tet.beside[i]].label == tet.label) continue;
+      box.extend(delaunay_.point(tet.vertices[(i + 1) % 3]));
+      box.extend(delaunay_.point(tet.vertices[(i + 2) % 3]));
+    }
+  }
+  return box;
+}
+
+/// After a change that was not meant for the surface: where new triangles wait, it has changed all the same.
+void Refinement::note_new_facets() {
+  if (watch_.empty()) return;
+  for (CellId cell : delaunay_.created()) {
+    for (int i = 0; i < 4; ++i) {
+      if (!delaunay_.bipolar({cell, i}) || delaunay_.ball({cell, i}) != nullptr) continue;
+      Box3 box;
+      for (VertexId v : delaunay_.vertices(FacetId{cell, i})) box.extend(delaunay_.point(v));
+      note_change(box, delaunay_.vertices(FacetId{cell, i})[0]);
+    }
+  }
 }
 
 }  // namespace delvox

@@ -32,6 +32,7 @@ void Refinement::insert_shell(InteriorLattice& lattice) {
   const std::vector<VertexId> inserted = delaunay_.insert_interior(points, [this] { return budget_left(); });
   for (std::size_t i = 0; i < inserted.size(); ++i) *vertices[i] = inserted[i];
   report_.interior_insertions += inserted.size();
+  note_new_facets();
   enqueue_created();
 }
 
@@ -54,6 +55,7 @@ void Refinement::insert_deep() {
   const std::vector<Point3> points = std::move(deep_->points);
   deep_.reset();
   delaunay_.insert_interior(points, [] { return true; });
+  note_new_facets();
   enqueue_created();
 }
 

@@ -20,12 +20,8 @@ void flood(const RestrictedDelaunay& delaunay, CellId start, std::uint32_t piece
 
 }  // namespace
 
-Pieces find_pieces(const RestrictedDelaunay& delaunay, const std::vector<CellId>& starts) {
-  Pieces pieces{std::vector<std::uint32_t>(delaunay.cell_capacity(), kNone), 0, 0};
-  for (CellId cell : starts) {
-    if (pieces.of_cell[cell] == kNone) flood(delaunay, cell, pieces.count++, pieces.of_cell);
-  }
-  pieces.reached = pieces.count;
+Pieces find_pieces(const RestrictedDelaunay& delaunay) {
+  Pieces pieces{std::vector<std::uint32_t>(delaunay.cell_capacity(), kNone), 0};
   for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
     if (pieces.of_cell[cell] != kNone || delaunay.stamp(cell) == 0) continue;
     flood(delaunay, cell, pieces.count++, pieces.of_cell);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "delvox/meshing/criteria.h"
 #include "delvox/oracle/oracle.h"
 #include "meshing/deep_lattice.h"
+#include "meshing/landmark_watch.h"
 #include "meshing/pieces.h"
 #include "meshing/run_budget.h"
 
@@ -62,16 +62,9 @@ class Refinement {
     CellId cell;
     std::uint32_t stamp;
   };
-  /// Cells that a link runs through between those of its ends.
-  struct LinkPath {
-    std::array<WaitingTet, 4> cells;
-    std::uint32_t length = 0;  ///< may be more than is kept
-    bool clear = false;        ///< all of the right label
-  };
   struct LandmarkPlace {
     CellId cell = kNone;
     std::uint32_t stamp = 0;
-    bool moved = false;  ///< found in another cell since links were last looked at
     bool lost = false;  ///< on the wrong side, and nothing can be inserted for it
   };
   /// A cell whose label is not that of the link through it, and a crossing inside its sphere.
@@ -89,19 +82,21 @@ class Refinement {
   Fault fault_of(FacetId facet, const SurfaceBall& ball) const;
   bool insert_surface_point(const Point3& p, CellId hint);
   void mark_dirty(FacetId facet);
-  void commit(VertexKind kind);
   bool repair_umbrella(VertexId vertex);
 
   // Landmarks (landmark_repair.cpp)
-  bool repair_landmark(std::size_t index, CellId hint);
+  CellId cell_of_landmark(const LandmarkWatch::Due& due);
+  bool repair_landmark(const LandmarkWatch::Due& due);
   std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell) const;
   bool insert_for_landmark(const Point3& p, CellId hint);
   bool repair_links();
-  bool unchanged(std::size_t link) const;
   bool repair_pieces();
   std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b, CellId cell_b,
-                                                 LinkPath& path) const;
-  std::vector<SurfaceBall> largest_balls(const Pieces& pieces) const;
+                                                 int halvings) const;
+  std::vector<SurfaceBall> largest_balls(const Pieces& pieces, const std::vector<bool>& real) const;
+  Box3 box_of_change(const Star& star) const;
+  void note_change(const Box3& box, VertexId near);
+  void note_new_facets();
   std::size_t vertex_count() const { return delaunay_.vertex_count() + (deep_ ? deep_->points.size() : 0); }
   bool budget_left() { return budget_.go_on(vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
 
@@ -130,9 +125,10 @@ class Refinement {
   std::vector<WaitingTet> tets_;      // last in, first out
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
-  Landmarks landmarks_;
+  LandmarkWatch watch_;
   std::vector<LandmarkPlace> landmark_places_;
-  std::vector<LinkPath> link_paths_;
+  CellId last_located_ = RestrictedDelaunay::kBeyond;
+  bool pieces_changed_ = true;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
   Point3 deviant_place_, stuck_place_, lost_place_;

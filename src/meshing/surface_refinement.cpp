@@ -17,7 +17,7 @@ void Refinement::insert_seeds() {
   const Seeds seeds = oracle_.seeds([this](const Point3& p) { return surface_.size(p); });
   if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
   report_.components = seeds.components;
-  landmarks_ = oracle_.landmarks([this](const Point3& p) { return surface_.size(p); });
+  watch_ = LandmarkWatch(oracle_.landmarks([this](const Point3& p) { return surface_.size(p); }));
   delaunay_.insert_seeds(seeds.points);
   enqueue_created();
 }
@@ -31,11 +31,6 @@ void Refinement::enqueue_created() {
       if (delaunay_.bipolar(facet) && delaunay_.ball(facet) == nullptr) facets_.push_back({facet, stamp});
     }
   }
-}
-
-void Refinement::commit(VertexKind kind) {
-  delaunay_.commit(kind);
-  enqueue_created();
 }
 
 void Refinement::refine_surface() {
@@ -74,6 +69,7 @@ bool Refinement::remove_interior_vertex_of(FacetId facet) {
     if (delaunay_.kind(vertex) != VertexKind::kInterior) continue;
     if (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep();
     delaunay_.remove(vertex);
+    note_new_facets();
     ++report_.removals;
     enqueue_created();
     return true;
@@ -109,7 +105,10 @@ bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
       if (delaunay_.ball({cell, i}) != nullptr) mark_dirty({cell, i});
     }
   }
-  commit(VertexKind::kSurface);
+  const Box3 changing = watch_.empty() ? Box3{} : box_of_change(star);
+  const VertexId inserted = delaunay_.commit(VertexKind::kSurface);
+  if (!watch_.empty()) note_change(changing, inserted);
+  enqueue_created();
   return true;
 }
 

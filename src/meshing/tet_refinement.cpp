@@ -64,7 +64,8 @@ void Refinement::split_tet(CellId cell) {
     }
     return;
   }
-  commit(VertexKind::kInterior);  // 7(b)
+  delaunay_.commit(VertexKind::kInterior);  // 7(b)
+  enqueue_created();
   ++report_.interior_insertions;
 }
 
