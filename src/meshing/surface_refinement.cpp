@@ -126,8 +126,8 @@ bool Refinement::repair_topology() {
   bool inserted = false;
   std::vector<VertexId> round;
   round.swap(dirty_);
-  for (VertexId vertex : round) {
-    is_dirty_[vertex] = 0;
+  for (VertexId vertex : round) is_dirty_[vertex] = 0;
+  for (VertexId vertex : without_disk(delaunay_, round)) {
     if (!budget_left()) return inserted;
     inserted |= repair_umbrella(vertex);
   }

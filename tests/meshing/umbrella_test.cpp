@@ -74,6 +74,25 @@ TEST_P(RandomComplex, UmbrellasHoldTheRestrictedTrianglesAtAVertexAndTellWhether
   EXPECT_GT(others, 5);
 }
 
+TEST_P(RandomComplex, ASweepFindsTheSameBrokenUmbrellasAsAWalkAroundEachVertex) {
+  for (CellId c = RestrictedDelaunay::kBeyond + 1; c < delaunay_.cell_capacity(); ++c) {
+    for (int i = 0; i < 4; ++i) {
+      if (delaunay_.bipolar({c, i}) && delaunay_.ball({c, i}) == nullptr) delaunay_.compute_ball({c, i});
+    }
+  }
+  std::vector<VertexId> all, few, broken, few_broken;
+  for (VertexId v = 4; v < delaunay_.vertex_capacity(); ++v) {
+    all.push_back(v);
+    const bool bad = !find_umbrella(delaunay_, v).disk;
+    if (bad) broken.push_back(v);
+    if (v % 50 != 0) continue;
+    few.push_back(v);
+    if (bad) few_broken.push_back(v);
+  }
+  EXPECT_EQ(without_disk(delaunay_, all), broken);
+  EXPECT_EQ(without_disk(delaunay_, few), few_broken);
+}
+
 TEST_P(RandomComplex, PiecesAreTheCellsOfOneLabelThatFacetsJoin) {
   test::detail::UnionFind expected(delaunay_.cell_capacity());
   constexpr CellId kFirst = RestrictedDelaunay::kBeyond + 1;
