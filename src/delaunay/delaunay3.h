@@ -53,7 +53,7 @@ class Delaunay3 {
   /// Some cell at the vertex.
   CellId cell_of(VertexId vertex) const { return vertices_[vertex].cell; }
 
-  /// The cell that contains p, by a walk from `hint`.
+  /// The cell that contains p, by a walk from `hint`. pre: p inside the bounds.
   CellId locate(const Point3& p, CellId hint) const;
   /// Cells around a vertex other than a corner, in an order that depends on the triangulation alone.
   void find_incident_cells(VertexId vertex, std::vector<CellId>& cells) const;

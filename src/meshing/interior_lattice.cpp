@@ -15,7 +15,7 @@ constexpr double kCube = 1.45;
 /// A tet's circumsphere reaches 0.654 cubes from its corners at most: no vertex that far from all sites disturbs it.
 constexpr double kClearance = 0.68;
 constexpr double kJitter = 0.01;
-constexpr double kMostSites = 1 << 30;
+constexpr double kMostSites = 1 << 28;
 /// Cubes all around, so that a site inside has all of its neighbours.
 constexpr int kRim = 2;
 
@@ -68,19 +68,24 @@ void InteriorLattice::find_inside(const RestrictedDelaunay& delaunay) {
   }
 }
 
-void InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
+/// True if that blocked any site.
+bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
+  bool any = false;
   for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
-    if (delaunay.kind(v) == VertexKind::kSurface) block_around(delaunay.point(v), kClearance * cube_);
+    if (delaunay.kind(v) == VertexKind::kSurface) any |= block_around(delaunay.point(v), kClearance * cube_);
   }
   for (CellId cell = 0; cell < delaunay.cell_capacity(); ++cell) {
     for (int i = 0; i < 4 && delaunay.has_balls(cell); ++i) {
       const SurfaceBall* ball = delaunay.ball({cell, i});
-      if (ball != nullptr && delaunay.label(cell) != 0) block_around(ball->center, std::sqrt(ball->squared_radius));
+      if (ball == nullptr || delaunay.label(cell) == 0) continue;
+      any |= block_around(ball->center, std::sqrt(ball->squared_radius));
     }
   }
+  return any;
 }
 
-void InteriorLattice::block_around(const Point3& p, double radius) {
+bool InteriorLattice::block_around(const Point3& p, double radius) {
+  bool any = false;
   const double reach = radius + 2 * kJitter * cube_;
   for (const bool centre : {false, true}) {
     const auto range = [&](int axis, double half_width) {
@@ -97,10 +102,14 @@ void InteriorLattice::block_around(const Point3& p, double radius) {
         if (left < 0) continue;
         const auto [i0, i1] = range(0, std::sqrt(left));
         const Site row = (centre ? cubes_ : 0) + k * stride_[2] + j * stride_[1];
-        for (std::int32_t i = i0; i <= i1; ++i) state_[row + i] = kBlocked;
+        for (std::int32_t i = i0; i <= i1; ++i) {
+          any |= state_[row + i] != kBlocked;
+          state_[row + i] = kBlocked;
+        }
       }
     }
   }
+  return any;
 }
 
 Point3 InteriorLattice::point(Site site) const {
@@ -156,7 +165,12 @@ bool InteriorLattice::block_removed(const RestrictedDelaunay& delaunay) {
     if (gone) state_[shell.site] = kBlocked;
     any |= gone;
   }
-  if (!any) return false;
+  return any;
+}
+
+bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
+  const bool removed = block_removed(delaunay), nearer = block_near_surface(delaunay);
+  if (!removed && !nearer) return false;
   for (Site s : inside_) {
     if (state_[s] != kBlocked) state_[s] = kDeep;
   }

@@ -33,8 +33,9 @@ class InteriorLattice {
   std::size_t site_count() const { return shell_.size() + deep_.size(); }
   Point3 point(Site site) const;
   std::vector<ShellSite>& shell() { return shell_; }
-  /// Blocks the sites whose vertices are gone, and moves the shell inward there. False if there is none.
-  bool block_removed(const RestrictedDelaunay& delaunay);
+  /// Blocks the sites whose vertices are gone and those near vertices that the surface has got since, and moves the shell
+  /// inward there. False if there is none.
+  bool adapt(const RestrictedDelaunay& delaunay);
   /// The tets with at least one deep corner. pre: all of shell() have their vertices.
   DeepLattice deep() const;
 
@@ -46,8 +47,9 @@ class InteriorLattice {
 
   bool lay_out(const RestrictedDelaunay& delaunay);
   void find_inside(const RestrictedDelaunay& delaunay);
-  void block_near_surface(const RestrictedDelaunay& delaunay);
-  void block_around(const Point3& p, double radius);
+  bool block_near_surface(const RestrictedDelaunay& delaunay);
+  bool block_around(const Point3& p, double radius);
+  bool block_removed(const RestrictedDelaunay& delaunay);
   void find_depths();
   bool touches(int depth, Site site) const;
   std::array<Tet, 4> tets_along(Site site, int axis) const;

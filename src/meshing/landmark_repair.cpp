@@ -62,7 +62,7 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
     for (VertexId vertex : tet.vertices) too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;
   }
   if (too_near) return false;
-  if (!insert_surface_point(p, hint)) return false;
+  if (!insert_surface_point(p, star.zone.front())) return false;
   ++report_.topology_insertions;
   return true;
 }

@@ -15,7 +15,7 @@ void Refinement::fill_interior(const TetCriteria& criteria) {
     insert_shell(lattice);
     refine_surface();  // step 2 removes the sites that disturb the surface
     if (!budget_left()) return;
-  } while (lattice.block_removed(delaunay_));
+  } while (lattice.adapt(delaunay_));
   deep_ = lattice.deep();
   report_.interior_insertions += deep_->points.size();
   if (!set_deep_aside()) insert_deep();
@@ -30,8 +30,10 @@ void Refinement::insert_shell(InteriorLattice& lattice) {
     vertices.push_back(&shell.vertex);
   }
   const std::vector<VertexId> inserted = delaunay_.insert_interior(points, [this] { return budget_left(); });
-  for (std::size_t i = 0; i < inserted.size(); ++i) *vertices[i] = inserted[i];
-  report_.interior_insertions += inserted.size();
+  for (std::size_t i = 0; i < inserted.size(); ++i) {
+    *vertices[i] = inserted[i];
+    report_.interior_insertions += inserted[i] != kNone;
+  }
   note_new_facets();
   enqueue_created();
 }
@@ -59,9 +61,11 @@ void Refinement::insert_deep() {
   enqueue_created();
 }
 
-/// As RestrictedDelaunay::evaluate, of the whole mesh. Cells given before may be gone if it has come near the deep sites.
+/// As RestrictedDelaunay::evaluate, of the whole mesh. Cells known before, the hint too, are gone afterwards if it has
+/// come near the deep sites.
 const Star& Refinement::evaluate(const Point3& p, CellId hint) {
-  const Star& star = delaunay_.evaluate(p, hint);
+  const bool known = delaunay_.stamp(hint) != 0;
+  const Star& star = delaunay_.evaluate(p, known ? hint : delaunay_.created().front());
   if (!delaunay_.disturbs_aside(star.zone)) return star;
   insert_deep();
   return delaunay_.evaluate(p, delaunay_.created().front());

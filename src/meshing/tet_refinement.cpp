@@ -55,7 +55,7 @@ void Refinement::split_tet(CellId cell) {
   SurfaceBall ball;
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
   if (star.duplicate || find_encroached_ball(star, ball) || find_new_ball(star, ball)) {
-    if (!star.duplicate && insert_surface_point(ball.center, cell)) {
+    if (!star.duplicate && insert_surface_point(ball.center, star.zone.front())) {
       ++report_.surface_insertions;
     } else {
       ++stuck_;
