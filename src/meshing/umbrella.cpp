@@ -46,7 +46,7 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
     for (int i = 0; i < 4; ++i) {
       const CellId neighbor = delaunay.neighbors(cell)[i];
       // Each facet is met from both of its cells: take it from the one with the larger label.
-      if (delaunay.cell(cell).label <= delaunay.cell(neighbor).label) continue;
+      if (delaunay.label(cell) <= delaunay.label(neighbor)) continue;
       const auto corners = delaunay.vertices(FacetId{cell, i});
       const auto own = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
       if (own == 3) continue;
