@@ -19,6 +19,7 @@
 #include "size_search.h"
 #include "sizes.h"
 #include "stopwatch.h"
+#include "thread_limit.h"
 #include "verdict.h"
 
 namespace delvox::tools {
@@ -255,6 +256,7 @@ void run_meshing(const Verb& verb, const Arguments& arguments, MeshKind kind) {
   MeshingOptions options;
   options.kind = kind;
   add_meshing_options(app, options);
+  const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
   Json report = run_header(verb, arguments);
   report["options"] = options_json(app);
