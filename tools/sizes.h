@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "delvox/meshing/size_field.h"
+#include "delvox/core/size_field.h"
 #include "delvox/volume/level_set.h"
 
 namespace delvox::tools {
