@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "delvox/meshing/size_field.h"
+#include "delvox/core/size_field.h"
 #include "delvox/volume/level_set.h"
 
 namespace delvox::tools {

@@ -21,11 +21,9 @@ constexpr int kRim = 2;
 
 }  // namespace
 
-InteriorLattice::InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size) : cube_(kCube * cell_size) {
-  if (!lay_out(delaunay)) return;
-  find_inside(delaunay);
-  block_near_surface(delaunay);
-  find_depths();
+InteriorLattice::InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size, const GoOn& go_on)
+    : cube_(kCube * cell_size) {
+  if (lay_out(delaunay) && find_inside(delaunay, go_on)) block_near_surface(delaunay);
 }
 
 bool InteriorLattice::lay_out(const RestrictedDelaunay& delaunay) {
@@ -48,11 +46,15 @@ bool InteriorLattice::lay_out(const RestrictedDelaunay& delaunay) {
   return true;
 }
 
-void InteriorLattice::find_inside(const RestrictedDelaunay& delaunay) {
+bool InteriorLattice::find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on) {
   for (const bool centre : {false, true}) {
     const LatticeRows rows{origin_, cube_, centre ? 0.5 : 0.0, counts_[1], counts_[2]};
     const RowCrossings found = find_row_crossings(delaunay, rows);
     for (Site row = 0; row + 1 < found.first.size(); ++row) {
+      if (!go_on()) {
+        inside_.clear();
+        return false;
+      }
       const Site row_start = (centre ? cubes_ : 0) + row * stride_[1];
       for (std::uint32_t c = found.first[row]; c + 1 < found.first[row + 1]; ++c) {
         if (found.crossings[c].label == 0) continue;
@@ -66,6 +68,7 @@ void InteriorLattice::find_inside(const RestrictedDelaunay& delaunay) {
       }
     }
   }
+  return true;
 }
 
 /// True if that blocked any site.

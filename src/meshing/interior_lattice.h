@@ -6,6 +6,7 @@
 
 #include "delaunay/restricted_delaunay.h"
 #include "delvox/core/geometry.h"
+#include "delvox/oracle/oracle.h"
 #include "meshing/deep_lattice.h"
 
 namespace delvox {
@@ -27,10 +28,13 @@ class InteriorLattice {
   };
 
   /// pre: delaunay has the balls of all its restricted triangles. `cell_size`: bound on circumradii. Has no sites if the
-  /// box around the surface would hold too many.
-  InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size);
+  /// box around the surface would hold too many, or if go_on() says to end.
+  InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size, const GoOn& go_on);
 
-  std::size_t site_count() const { return shell_.size() + deep_.size(); }
+  /// All of them; nothing but their number is known until find_depths().
+  std::size_t site_count() const { return inside_.size(); }
+  /// Which sites are shell, which deep. To be called once, before any of the following.
+  void find_depths();
   Point3 point(Site site) const;
   std::vector<ShellSite>& shell() { return shell_; }
   /// Blocks the sites whose vertices are gone and those near vertices that the surface has got since, and moves the shell
@@ -46,11 +50,10 @@ class InteriorLattice {
   using Tet = std::array<Site, 4>;
 
   bool lay_out(const RestrictedDelaunay& delaunay);
-  void find_inside(const RestrictedDelaunay& delaunay);
+  bool find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on);
   bool block_near_surface(const RestrictedDelaunay& delaunay);
   bool block_around(const Point3& p, double radius);
   bool block_removed(const RestrictedDelaunay& delaunay);
-  void find_depths();
   bool touches(int depth, Site site) const;
   std::array<Tet, 4> tets_along(Site site, int axis) const;
   template <class Visit>

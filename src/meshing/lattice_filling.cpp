@@ -8,9 +8,10 @@ namespace delvox {
 
 void Refinement::fill_interior(const TetCriteria& criteria) {
   if (!criteria.cell_size.constant() || !budget_left()) return;
-  InteriorLattice lattice(delaunay_, criteria.cell_size.maximum());
+  InteriorLattice lattice(delaunay_, criteria.cell_size.maximum(), [this] { return budget_left(); });
   // A run that is to stop there anyway stops with refined tets rather than with half a lattice.
   if (!budget_.room_for(vertex_count() + lattice.site_count())) return;
+  lattice.find_depths();
   do {
     insert_shell(lattice);
     refine_surface();  // step 2 removes the sites that disturb the surface

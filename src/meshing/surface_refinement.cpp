@@ -14,10 +14,15 @@ Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, con
     : oracle_(oracle), surface_(surface), report_(report), budget_(control, report), delaunay_(oracle) {}
 
 void Refinement::insert_seeds() {
-  const Seeds seeds = oracle_.seeds([this](const Point3& p) { return surface_.size(p); });
+  // Cancelling ends it; a limit does not: fewer seeds would leave components without any.
+  const auto go_on = [this] {
+    budget_.go_on(0, 0);
+    return true;
+  };
+  const Seeds seeds = oracle_.seeds(surface_.size, go_on);
   if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
   report_.components = seeds.components;
-  watch_ = LandmarkWatch(oracle_.landmarks([this](const Point3& p) { return surface_.size(p); }));
+  watch_ = LandmarkWatch(oracle_.landmarks(surface_.size, go_on));
   delaunay_.insert_seeds(seeds.points);
   enqueue_created();
 }

@@ -1,11 +1,11 @@
 #include "oracle/brick_field.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace delvox {
 namespace {
-
-constexpr double kPureValue = 1e30;
 
 /// Copies the 9x9x9 samples of one brick out of a slab; beyond the padded grid the last sample repeats.
 bool copy_block(const float* slab, const std::array<int, 3>& slab_size, int begin_i, int begin_j, double level,
@@ -59,38 +59,24 @@ void BrickField::add_slab(const float* slab, const std::array<int, 3>& slab_size
   }
 }
 
-std::array<int, 3> BrickField::cell_of(const Point3& u) const {
-  // Clamped below the last sample, so that points on the upper faces have a cell too.
-  return {std::min(static_cast<int>(u.x), size_[0] - 2), std::min(static_cast<int>(u.y), size_[1] - 2),
-          std::min(static_cast<int>(u.z), size_[2] - 2)};
-}
-
 BrickField::CellSamples BrickField::cell_samples(const std::array<int, 3>& cell) const {
   CellSamples result;
-  const std::int32_t entry = table_[brick_index({cell[0] / kBrick, cell[1] / kBrick, cell[2] / kBrick})];
+  const std::int32_t entry = entry_of(cell);
   if (entry < 0) {
     result.inside = entry == kInsideBrick;
     return result;
   }
   result.mixed_brick = true;
-  const float* s = blocks_.data() + static_cast<std::size_t>(entry) * kBlockSize +
-                   ((cell[2] % kBrick) * kBlock + cell[1] % kBrick) * kBlock + cell[0] % kBrick;
+  const float* s = lowest_sample(entry, cell);
   constexpr int kRow = kBlock, kSlice = kBlock * kBlock;
   result.value = {s[0],      s[1],          s[kRow],          s[kRow + 1],
                   s[kSlice], s[kSlice + 1], s[kSlice + kRow], s[kSlice + kRow + 1]};
   return result;
 }
 
-double BrickField::value(const Point3& u) const {
-  const std::array<int, 3> cell = cell_of(u);
-  const CellSamples samples = cell_samples(cell);
-  if (!samples.mixed_brick) return samples.inside ? kPureValue : -kPureValue;
-  return trilinear(samples.value, u.x - cell[0], u.y - cell[1], u.z - cell[2]) - level_;
-}
-
-bool BrickField::in_mixed_brick(const Point3& u) const {
-  const std::array<int, 3> cell = cell_of(u);
-  return state({cell[0] / kBrick, cell[1] / kBrick, cell[2] / kBrick}) == BrickState::kMixed;
+float BrickField::threshold() const {
+  const float nearest = static_cast<float>(level_);
+  return nearest <= level_ ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());
 }
 
 Vector3 BrickField::gradient(const Point3& u) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -38,10 +39,6 @@ class BrickField {
   /// Calls visit(brick) for each mixed brick, first index fastest.
   template <class Visit>
   void for_each_mixed_brick(const Visit& visit) const;
-  /// Calls visit(sample, address) for the samples of all mixed bricks, each once: those shared by bricks belong to the
-  /// upper one. From the address the samples one step up along each axis can be reached by kBlockStride.
-  template <class Visit>
-  void for_each_mixed_sample(const Visit& visit) const;
 
   /// The eight samples around a cell, bit 0 of the index along x, bit 1 along y, bit 2 along z; false if the cell lies
   /// in a pure brick (then `inside` tells which).
@@ -51,16 +48,27 @@ class BrickField {
     bool inside = false;
   };
   CellSamples cell_samples(const std::array<int, 3>& cell) const;
-  std::array<int, 3> cell_of(const Point3& u) const;
+  /// Clamped below the last sample, so that points on the upper faces have a cell too. pre: contains(u).
+  std::array<int, 3> cell_of(const Point3& u) const {
+    return {std::min(static_cast<int>(u.x), size_[0] - 2), std::min(static_cast<int>(u.y), size_[1] - 2),
+            std::min(static_cast<int>(u.z), size_[2] - 2)};
+  }
 
-  /// Trilinear value minus level; in pure bricks a large number of the right sign. pre: contains(u).
-  double value(const Point3& u) const;
-  bool inside(const Point3& u) const { return value(u) > 0; }
-  /// Whether u lies in a brick whose values are known.
-  bool in_mixed_brick(const Point3& u) const;
-  /// Gradient in grid coordinates. pre: in_mixed_brick(u).
+  /// Trilinear value minus level. In pure bricks only its sign is known: `value` is a large number of that sign.
+  struct Sample {
+    double value;
+    bool known;
+    bool inside() const { return value > 0; }
+  };
+  /// pre: contains(u).
+  Sample sample(const Point3& u) const;
+  double value(const Point3& u) const { return sample(u).value; }
+  bool inside(const Point3& u) const { return sample(u).inside(); }
+  /// Gradient in grid coordinates, zero in pure bricks. pre: contains(u).
   Vector3 gradient(const Point3& u) const;
   double level() const { return level_; }
+  /// The largest float below the level: a sample is inside if it is greater.
+  float threshold() const;
 
  private:
   static constexpr std::int32_t kOutsideBrick = -1, kInsideBrick = -2;
@@ -71,6 +79,14 @@ class BrickField {
   }
   std::size_t brick_index(const std::array<int, 3>& b) const {
     return (static_cast<std::size_t>(b[2]) * brick_counts_[1] + b[1]) * brick_counts_[0] + b[0];
+  }
+  std::int32_t entry_of(const std::array<int, 3>& cell) const {
+    return table_[brick_index({cell[0] / kBrick, cell[1] / kBrick, cell[2] / kBrick})];
+  }
+  /// The lowest of a cell's samples in its mixed brick.
+  const float* lowest_sample(std::int32_t entry, const std::array<int, 3>& cell) const {
+    return blocks_.data() + static_cast<std::size_t>(entry) * kBlockSize +
+           ((cell[2] % kBrick) * kBlock + cell[1] % kBrick) * kBlock + cell[0] % kBrick;
   }
   void add_slab(const float* slab, const std::array<int, 3>& slab_size);
 
@@ -92,22 +108,6 @@ void BrickField::for_each_mixed_brick(const Visit& visit) const {
   }
 }
 
-template <class Visit>
-void BrickField::for_each_mixed_sample(const Visit& visit) const {
-  for_each_mixed_brick([&](const std::array<int, 3>& brick) {
-    const float* samples = block(brick);
-    for (int k = 0; k < kBrick; ++k) {
-      for (int j = 0; j < kBrick; ++j) {
-        for (int i = 0; i < kBrick; ++i) {
-          const std::array<int, 3> sample{brick[0] * kBrick + i, brick[1] * kBrick + j, brick[2] * kBrick + k};
-          if (sample[0] >= size_[0] || sample[1] >= size_[1] || sample[2] >= size_[2]) continue;
-          visit(sample, samples + (k * kBlock + j) * kBlock + i);
-        }
-      }
-    }
-  });
-}
-
 /// Trilinear interpolation of eight samples (bit 0 of the index along x) at (x, y, z) in [0, 1]^3.
 template <class Samples>
 double trilinear(const Samples& s, double x, double y, double z) {
@@ -115,6 +115,18 @@ double trilinear(const Samples& s, double x, double y, double z) {
   const double s01 = s[4] + x * (static_cast<double>(s[5]) - s[4]), s11 = s[6] + x * (static_cast<double>(s[7]) - s[6]);
   const double s0 = s00 + y * (s10 - s00), s1 = s01 + y * (s11 - s01);
   return s0 + z * (s1 - s0);
+}
+
+inline BrickField::Sample BrickField::sample(const Point3& u) const {
+  constexpr double kFarFromLevel = 1e30;
+  const std::array<int, 3> cell = cell_of(u);
+  const std::int32_t entry = entry_of(cell);
+  if (entry < 0) return {entry == kInsideBrick ? kFarFromLevel : -kFarFromLevel, false};
+  constexpr int kRow = kBlock, kSlice = kBlock * kBlock;
+  const float* s = lowest_sample(entry, cell);
+  const std::array<double, 8> corners{s[0],      s[1],          s[kRow],          s[kRow + 1],
+                                      s[kSlice], s[kSlice + 1], s[kSlice + kRow], s[kSlice + kRow + 1]};
+  return {trilinear(corners, u.x - cell[0], u.y - cell[1], u.z - cell[2]) - level_, true};
 }
 
 }  // namespace delvox

@@ -66,8 +66,8 @@ class ImplicitOracle final : public SmoothOracle {
     return result;
   }
 
-  Seeds seeds(const Spacing& spacing) const override {
-    const Seeds rough = voxel_seeds(*field_, grid_to_world_, spacing);
+  Seeds seeds(const SizeField& size, const GoOn& go_on) const override {
+    const Seeds rough = voxel_seeds(*field_, grid_to_world_, size, go_on);
     Seeds seeds;
     seeds.components = rough.components;
     for (const Point3& u : rough.points) {

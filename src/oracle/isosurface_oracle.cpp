@@ -48,13 +48,13 @@ class IsosurfaceOracle final : public SmoothOracle {
 
   std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const override;
 
-  Seeds seeds(const Spacing& spacing) const override {
-    Seeds seeds = voxel_seeds(*field_, to_world_, spacing);
+  Seeds seeds(const SizeField& size, const GoOn& go_on) const override {
+    Seeds seeds = voxel_seeds(*field_, to_world_, size, go_on);
     for (Point3& p : seeds.points) p = to_world_(p);
     return seeds;
   }
 
-  Landmarks landmarks(const Spacing& spacing) const override;
+  Landmarks landmarks(const SizeField& size, const GoOn& go_on) const override;
 
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<IsosurfaceOracle>(*this); }
 
@@ -70,22 +70,15 @@ class IsosurfaceOracle final : public SmoothOracle {
   Box3 bounds_;
 };
 
-Landmarks IsosurfaceOracle::landmarks(const Spacing& spacing) const {
+Landmarks IsosurfaceOracle::landmarks(const SizeField& size, const GoOn& go_on) const {
   // A mesh much coarser than half a voxel cannot follow every voxel; nor is it asked to.
-  const double fine_enough = 0.6 * std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
-  Landmarks all = voxel_landmarks(*field_), fine;
-  constexpr std::uint32_t kLeftOut = 0xffffffffu;
-  std::vector<std::uint32_t> numbers(all.points.size(), kLeftOut);
-  for (std::size_t i = 0; i < all.points.size(); ++i) {
-    const Point3 p = to_world_(all.points[i]);
-    if (spacing(p) > fine_enough) continue;
-    numbers[i] = static_cast<std::uint32_t>(fine.points.size());
-    fine.points.push_back(p);
-  }
-  for (const auto& [a, b] : all.links) {
-    if (numbers[a] != kLeftOut && numbers[b] != kLeftOut) fine.links.push_back({numbers[a], numbers[b]});
-  }
-  return fine;
+  const double voxel = std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
+  const double fine_enough = 0.6 * voxel;
+  if (size.minimum() > fine_enough) return {};
+  const auto wanted = [&](const Point3& u) { return size.constant() || size(to_world_(u)) <= fine_enough; };
+  Landmarks landmarks = voxel_landmarks(*field_, wanted, go_on);
+  for (Point3& p : landmarks.points) p = to_world_(p);
+  return landmarks;
 }
 
 bool IsosurfaceOracle::clip(Point3& a, Point3& b) const {
@@ -113,18 +106,21 @@ bool IsosurfaceOracle::clip(Point3& a, Point3& b) const {
 }
 
 Point3 IsosurfaceOracle::crossing_between(Point3 a, Point3 b) const {
-  const bool a_inside = field_->inside(a);
+  BrickField::Sample at_a = field_->sample(a), at_b = field_->sample(b);
+  const bool a_inside = at_a.inside();
   // Bisect on labels until both ends are within a voxel and have known values (pure bricks only know their side).
-  while (squared_distance(a, b) > 1 || !field_->in_mixed_brick(a) || !field_->in_mixed_brick(b)) {
+  while (squared_distance(a, b) > 1 || !at_a.known || !at_b.known) {
     const Point3 middle = midpoint(a, b);
     if (middle == a || middle == b) break;
-    (field_->inside(middle) == a_inside ? a : b) = middle;
+    const BrickField::Sample at_middle = field_->sample(middle);
+    const bool beside_a = at_middle.inside() == a_inside;
+    (beside_a ? a : b) = middle;
+    (beside_a ? at_a : at_b) = at_middle;
   }
-  const double value_a = field_->value(a), value_b = field_->value(b);
   const Vector3 ab = b - a;
-  const double scale = std::abs(field_->level()) + std::min(std::abs(value_a), std::abs(value_b));
-  const double t =
-      bracketed_root([&](double s) { return field_->value(a + s * ab); }, 0, value_a, 1, value_b, scale);
+  const double scale = std::abs(field_->level()) + std::min(std::abs(at_a.value), std::abs(at_b.value));
+  const double t = bracketed_root([&](double s) { return field_->value(a + s * ab); }, 0, at_a.value, 1, at_b.value,
+                                  scale);
   return a + t * ab;
 }
 

@@ -1,89 +1,87 @@
 #include "oracle/poisson_thinning.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "core/flat_hash.h"
 
 namespace delvox {
 namespace {
 
-/// Candidates hashed into cubes. Whoever is kept strikes out its neighbours: that touches each candidate a few times,
-/// where asking for each candidate whether a kept one is near would search all cubes around it.
-class CandidateGrid {
- public:
-  CandidateGrid(const std::vector<SpacedPoint>& candidates, double width)
-      : candidates_(candidates), width_(width), next_(candidates.size(), kEnd), struck_(candidates.size(), 0) {
-    for (std::uint32_t i = 0; i < candidates.size(); ++i) {
-      std::uint32_t& first = first_[key(cube(candidates[i].point))];
-      next_[i] = first;
-      first = i;
-    }
-  }
+using Cube = std::array<std::int64_t, 3>;
 
-  bool struck(std::uint32_t i) const { return struck_[i] != 0; }
+Cube cube_of(const Point3& p, double width) {
+  return {static_cast<std::int64_t>(std::floor(p.x / width)), static_cast<std::int64_t>(std::floor(p.y / width)),
+          static_cast<std::int64_t>(std::floor(p.z / width))};
+}
 
-  void strike_neighbours(std::uint32_t kept) {
-    const Point3& p = candidates_[kept].point;
-    const double reach = candidates_[kept].spacing;
-    const Cube low = cube({p.x - reach, p.y - reach, p.z - reach}), high = cube({p.x + reach, p.y + reach, p.z + reach});
-    for (std::int64_t k = low[2]; k <= high[2]; ++k) {
-      for (std::int64_t j = low[1]; j <= high[1]; ++j) {
-        for (std::int64_t i = low[0]; i <= high[0]; ++i) strike_in({i, j, k}, kept);
-      }
-    }
-  }
-
- private:
-  using Cube = std::array<std::int64_t, 3>;
-  static constexpr std::uint32_t kEnd = FlatHash::kAbsent;
-
-  Cube cube(const Point3& p) const {
-    return {static_cast<std::int64_t>(std::floor(p.x / width_)), static_cast<std::int64_t>(std::floor(p.y / width_)),
-            static_cast<std::int64_t>(std::floor(p.z / width_))};
-  }
-  // Cubes with equal keys share a list; distances are always tested, so that costs time only.
-  static std::uint64_t key(const Cube& c) {
-    const auto part = [](std::int64_t i) { return static_cast<std::uint64_t>(i) & 0x1fffff; };
-    return part(c[0]) | part(c[1]) << 21 | part(c[2]) << 42;
-  }
-
-  void strike_in(const Cube& c, std::uint32_t kept) {
-    const SpacedPoint& centre = candidates_[kept];
-    for (std::uint32_t i = first_.find(key(c)); i != kEnd; i = next_[i]) {
-      const double reach = std::min(centre.spacing, candidates_[i].spacing);
-      if (squared_distance(candidates_[i].point, centre.point) < reach * reach) struck_[i] = 1;
-    }
-  }
-
-  const std::vector<SpacedPoint>& candidates_;
-  double width_;
-  FlatHash first_;
-  std::vector<std::uint32_t> next_;
-  std::vector<std::uint8_t> struck_;
-};
+/// Low bits for the place within a block of cubes, so that FlatHash keeps neighbours together. Cubes with equal keys
+/// share a list; distances are always tested, so that costs time only.
+std::uint64_t key_of(const Cube& c) {
+  const auto bits = [](std::int64_t i, int from, int count) {
+    return static_cast<std::uint64_t>(i) >> from & ((std::uint64_t{1} << count) - 1);
+  };
+  return bits(c[0], 0, 4) | bits(c[1], 0, 4) << 4 | bits(c[2], 0, 3) << 8 | bits(c[0], 4, 17) << 11 |
+         bits(c[1], 4, 17) << 28 | bits(c[2], 3, 18) << 45;
+}
 
 }  // namespace
 
-std::vector<std::uint32_t> thin_poisson(const std::vector<SpacedPoint>& candidates) {
-  std::vector<std::uint32_t> kept;
-  if (candidates.empty()) return kept;
-  // Cubes as wide as the usual spacing: a few specks with tiny spacings must not make them narrow for all.
-  std::vector<double> spacings;
-  spacings.reserve(candidates.size());
-  for (const SpacedPoint& c : candidates) spacings.push_back(c.spacing);
-  const auto median = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), median, spacings.end());
-  constexpr double kCubesPerLargest = 16;
-  const double largest = *std::max_element(median, spacings.end());
-  CandidateGrid grid(candidates, std::max(*median, largest / kCubesPerLargest));
-  for (std::uint32_t index = 0; index < candidates.size(); ++index) {
-    if (grid.struck(index)) continue;
-    grid.strike_neighbours(index);
-    kept.push_back(index);
+bool PoissonThinner::keep(const Point3& p, double spacing) {
+  // Points come in clusters: whoever refused the last one likely refuses this one.
+  if (last_near_ != kEnd) {
+    const Kept& last = kept_[last_near_];
+    if (squared_distance(last.point, p) < std::min(spacing * spacing, last.squared_spacing)) return false;
   }
-  return kept;
+  Level& own = level_of(spacing);
+  for (const Level& level : levels_) {
+    if (near_kept(level, p, std::min(spacing, level.width))) return false;
+  }
+  std::uint32_t& first = own.first[key_of(cube_of(p, own.width))];
+  last_near_ = static_cast<std::uint32_t>(kept_.size());
+  kept_.push_back({p, spacing * spacing, first});
+  first = last_near_;
+  return true;
+}
+
+PoissonThinner::Level& PoissonThinner::level_of(double spacing) {
+  int octave = 0;
+  if (std::frexp(spacing / usual_, &octave) == 0.5) --octave;  // usual * 2^octave is the least that is not below spacing
+  const auto known = std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.octave == octave; });
+  if (known != levels_.end()) return *known;
+  return levels_.emplace_back(Level{octave, std::max(std::ldexp(usual_, octave), spacing), {}});
+}
+
+bool PoissonThinner::near_kept(const Level& level, const Point3& p, double reach) {
+  const Cube home = cube_of(p, level.width);
+  // Squared distances to the cubes before, at, and behind, along each axis. The own cube first: it refuses most.
+  std::array<std::array<double, 3>, 3> gap;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double into = p[axis] - static_cast<double>(home[axis]) * level.width, left = level.width - into;
+    gap[axis] = {0, into * into, left * left};
+  }
+  constexpr int kStep[3] = {0, -1, 1};
+  const double squared_reach = reach * reach;
+  for (int k = 0; k < 3; ++k) {
+    for (int j = 0; j < 3; ++j) {
+      const double gap_jk = gap[2][k] + gap[1][j];
+      if (gap_jk >= squared_reach) continue;
+      for (int i = 0; i < 3; ++i) {
+        if (gap_jk + gap[0][i] >= squared_reach) continue;
+        if (near_in_cube(level, {home[0] + kStep[i], home[1] + kStep[j], home[2] + kStep[k]}, p, squared_reach)) {
+          return true;
+        }
+      }
+    }
+  }
+  return false;
+}
+
+bool PoissonThinner::near_in_cube(const Level& level, const Cube& cube, const Point3& p, double squared_reach) {
+  for (std::uint32_t i = level.first.find(key_of(cube)); i != kEnd; i = kept_[i].next) {
+    if (squared_distance(kept_[i].point, p) >= std::min(squared_reach, kept_[i].squared_spacing)) continue;
+    last_near_ = i;
+    return true;
+  }
+  return false;
 }
 
 }  // namespace delvox

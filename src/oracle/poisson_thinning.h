@@ -1,20 +1,47 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "core/flat_hash.h"
 #include "delvox/core/geometry.h"
 
 namespace delvox {
 
-/// A point and the distance that it keeps from others.
-struct SpacedPoint {
-  Point3 point;
-  double spacing = 0;
-};
+/// Thins a stream of points, greedily in the order they come: of those kept, every two p, q are at least
+/// min(spacing(p), spacing(q)) apart, and none that was refused could be added. Holds the kept ones only.
+class PoissonThinner {
+ public:
+  /// Works best where most spacings are `usual`. pre: usual > 0.
+  explicit PoissonThinner(double usual) : usual_(usual) {}
 
-/// Indices of a maximal subset, taken greedily in the order of `candidates`, in which every two points p, q are at
-/// least min(spacing(p), spacing(q)) apart. pre: spacings positive.
-std::vector<std::uint32_t> thin_poisson(const std::vector<SpacedPoint>& candidates);
+  /// Whether the point is kept. pre: spacing > 0.
+  bool keep(const Point3& p, double spacing);
+
+ private:
+  static constexpr std::uint32_t kEnd = FlatHash::kAbsent;
+  struct Kept {
+    Point3 point;
+    double squared_spacing;
+    std::uint32_t next;  // in the same cube
+  };
+  /// Kept points whose spacings are within one octave, hashed into cubes as wide as the widest of them.
+  struct Level {
+    int octave;
+    double width;
+    FlatHash first;
+  };
+
+  Level& level_of(double spacing);
+  bool near_kept(const Level& level, const Point3& p, double reach);
+  bool near_in_cube(const Level& level, const std::array<std::int64_t, 3>& cube, const Point3& p,
+                    double squared_reach);
+
+  double usual_;
+  std::vector<Level> levels_;
+  std::vector<Kept> kept_;
+  std::uint32_t last_near_ = kEnd;
+};
 
 }  // namespace delvox

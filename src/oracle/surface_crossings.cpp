@@ -1,119 +1,210 @@
 #include "oracle/surface_crossings.h"
 
 #include <algorithm>
-#include <numeric>
-
-#include "core/flat_hash.h"
 
 namespace delvox {
 namespace {
 
 using Index3 = std::array<int, 3>;
+using Word = BrickEdges::Word;
+constexpr int kBrick = BrickField::kBrick, kBlock = BrickField::kBlock, kBlockSize = BrickField::kBlockSize;
 constexpr auto& kStride = BrickField::kBlockStride;
 
-class CrossingFinder {
- public:
-  explicit CrossingFinder(const BrickField& field) : field_(field), level_(field.level()) {}
+/// Beginnings of edges that lie in the first (last) plane of samples of a word, across axes 0 and 1.
+constexpr Word kFirst[2] = {0x0101010101010101ull, 0xffull}, kLast[2] = {kFirst[0] << 7, kFirst[1] << 56};
 
-  GridCrossings run() {
-    field_.for_each_mixed_sample([&](const Index3& s, const float* p) { add_edges(s, p); });
-    parent_.resize(result_.crossings.size());
-    std::iota(parent_.begin(), parent_.end(), 0u);
-    field_.for_each_mixed_sample([&](const Index3& s, const float* p) { join_on_faces(s, p); });
+/// Place of a bit of a layer among the samples of a block.
+int place_of(int layer, int bit) { return layer * kBlock * kBlock + bit + bit / kBrick; }
+
+/// A union-find whose roots are the smallest of their sets.
+template <class Number>
+Number find_root(Number* parent, Number i) {
+  while (parent[i] != i) i = parent[i] = parent[parent[i]];
+  return i;
+}
+template <class Number>
+void unite(Number* parent, Number a, Number b) {
+  a = find_root(parent, a);
+  b = find_root(parent, b);
+  if (a < b) {
+    parent[b] = a;
+  } else {
+    parent[a] = b;
+  }
+}
+
+/// Joins crossings to pieces within each brick, then pieces across brick faces. A face of the grid, like an edge,
+/// belongs to the brick of its lowest sample; edges that it borrows of the next brick get pieces here as well, which
+/// are handed on to that brick.
+class ComponentFinder {
+ public:
+  explicit ComponentFinder(const BrickField& field)
+      : field_(field), level_(field.level()) {
+    const auto& n = field.brick_counts();
+    handed_[0].resize(1);
+    handed_[1].resize(static_cast<std::size_t>(n[0]));
+    handed_[2].resize(static_cast<std::size_t>(n[0]) * n[1]);
+  }
+
+  SurfaceComponents run(const GoOn& go_on) {
+    field_.for_each_mixed_brick([&](const Index3& brick) {
+      go_on();
+      visit_brick(brick);
+    });
     number_components();
     return std::move(result_);
   }
 
  private:
-  bool last(const Index3& sample, int axis) const { return sample[axis] + 1 >= field_.size()[axis]; }
+  using Local = std::uint16_t;
+  /// Pieces of the edges along the two other axes in a plane between bricks.
+  using Plane = std::array<std::uint32_t, 2 * kBrick * kBrick>;
 
-  /// Edges of one brick share all but the low bits, which the hash keeps together.
-  std::uint64_t key(const Index3& sample, int axis) const {
-    constexpr int kBits = 3, kMask = BrickField::kBrick - 1;
-    static_assert(BrickField::kBrick == 1 << kBits);
-    const auto& n = field_.brick_counts();
-    const std::uint64_t brick = (static_cast<std::uint64_t>(sample[2] >> kBits) * (n[1] + 1) + (sample[1] >> kBits)) *
-                                    (n[0] + 1) + (sample[0] >> kBits);
-    const int local = ((sample[2] & kMask) << 2 * kBits | (sample[1] & kMask) << kBits | (sample[0] & kMask)) * 3 + axis;
-    return brick << 11 | static_cast<std::uint64_t>(local);
-  }
-
-  void add_edges(const Index3& sample, const float* p) {
-    const bool inside = p[0] > level_;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (last(sample, axis)) continue;
-      const float other = p[kStride[axis]];
-      if ((other > level_) == inside) continue;
-      index_[key(sample, axis)] = static_cast<std::uint32_t>(result_.crossings.size());
-      const double position = (level_ - p[0]) / (static_cast<double>(other) - p[0]);
-      result_.crossings.push_back({sample, axis, position, 0});
+  void visit_brick(const Index3& brick) {
+    const BrickEdges edges(field_, brick);
+    const float* block = field_.block(brick);
+    count_ = 0;
+    edges.for_each_crossed([&](int layer, int axis, int bit) { add_edge(axis, place_of(layer, bit)); });
+    const Local own = count_;
+    for (int side = 0; side < 3; ++side) {
+      for_each_on_side<true>(edges, side, [&](int axis, int place, int) { add_edge(axis, place); });
     }
-  }
-
-  void join_on_faces(const Index3& sample, const float* p) {
     for (int normal = 0; normal < 3; ++normal) {
-      const int u = (normal + 1) % 3, v = (normal + 2) % 3;
-      if (last(sample, u) || last(sample, v)) continue;
-      // Corners a (base), b (+u), c (+u+v), d (+v) and the four edges between them, in turn.
-      const std::array<float, 4> f{p[0], p[kStride[u]], p[kStride[u] + kStride[v]], p[kStride[v]]};
-      const int inside = (f[0] > level_) + (f[1] > level_) + (f[2] > level_) + (f[3] > level_);
-      if (inside == 0 || inside == 4) continue;
-      const std::array<double, 4> g{f[0] - level_, f[1] - level_, f[2] - level_, f[3] - level_};
-      Index3 plus_u = sample, plus_v = sample;
-      ++plus_u[u];
-      ++plus_v[v];
-      const std::array<std::uint64_t, 4> edges{key(sample, u), key(plus_u, v), key(plus_v, u), key(sample, v)};
-      join_face(g, edges);
+      for (int layer = 0; layer < kBrick; ++layer) join_layer(edges, block, normal, layer);
+    }
+    number_pieces(own);
+    add_extents(brick, edges);
+    exchange_planes(brick, edges);
+  }
+
+  void add_edge(int axis, int place) {
+    edge_at_[axis][place] = count_;
+    parent_[count_] = count_;
+    ++count_;
+  }
+
+  /// Calls visit(axis, place, number in the plane) for the crossed edges in the lower or upper plane of the brick
+  /// across an axis.
+  template <bool kUpper, class Visit>
+  static void for_each_on_side(const BrickEdges& edges, int side, const Visit& visit) {
+    const int first = side == 2 && kUpper ? kBrick - 1 : 0, end = side == 2 && !kUpper ? 1 : kBrick;
+    const Word mask = side == 2 ? ~Word{0} : kUpper ? kLast[side] : kFirst[side];
+    for (int turn = 0; turn < 2; ++turn) {
+      const int axis = (side + 1 + turn) % 3;
+      for (int layer = first; layer < end; ++layer) {
+        BrickEdges::for_each_bit(edges.crossed(axis, kUpper ? 1 << side : 0, layer) & mask, [&](int bit) {
+          const int i = bit % kBrick, j = bit / kBrick;
+          const int number = side == 0 ? layer * kBrick + j : side == 1 ? layer * kBrick + i : bit;
+          visit(axis, place_of(layer, bit) + (kUpper ? kStride[side] : 0), turn * kBrick * kBrick + number);
+        });
+      }
     }
   }
 
-  void join_face(const std::array<double, 4>& g, const std::array<std::uint64_t, 4>& edges) {
-    std::array<int, 4> crossed;
-    int count = 0;
-    for (int e = 0; e < 4; ++e) {
-      if ((g[e] > 0) != (g[(e + 1) % 4] > 0)) crossed[count++] = e;
+  /// Faces of one direction whose lowest samples lie in one layer: corners a, b = a + u, c = a + u + v, d = a + v.
+  void join_layer(const BrickEdges& edges, const float* block, int normal, int layer) {
+    const int u = (normal + 1) % 3, v = (normal + 2) % 3;
+    const Word a = edges.inside(0, layer), b = edges.inside(1 << u, layer);
+    const Word c = edges.inside(1 << u | 1 << v, layer), d = edges.inside(1 << v, layer);
+    const std::array<Word, 4> crossed{a ^ b, b ^ c, c ^ d, d ^ a};
+    const Word all_four = crossed[0] & crossed[1] & crossed[2];
+    const std::array<Local*, 4> edge{edge_at_[u].data(), edge_at_[v].data() + kStride[u], edge_at_[u].data() + kStride[v],
+                                     edge_at_[v].data()};
+    for (int first = 0; first < 3; ++first) {
+      for (int second = first + 1; second < 4; ++second) {
+        BrickEdges::for_each_bit(crossed[first] & crossed[second] & ~all_four, [&](int bit) {
+          const int place = place_of(layer, bit);
+          unite(parent_.data(), edge[first][place], edge[second][place]);
+        });
+      }
     }
-    if (count == 2) {
-      join(edges[crossed[0]], edges[crossed[1]]);
-      return;
-    }
-    // Corner i lies between edges i-1 and i. The curves cut off the corners of the side that the saddle is not on.
-    const bool even_inside = g[0] > 0;
-    const double saddle = g[0] * g[2] - g[1] * g[3];  // sign of the saddle value, times that of the even corners
-    const bool saddle_inside = even_inside ? saddle > 0 : saddle < 0;
-    const bool cut_off_even = even_inside != saddle_inside;
-    for (int corner = cut_off_even ? 0 : 1; corner < 4; corner += 2) join(edges[(corner + 3) % 4], edges[corner]);
+    BrickEdges::for_each_bit(all_four, [&](int bit) {
+      const int place = place_of(layer, bit);
+      const float* p = block + place;
+      // Corner i lies between edges i-1 and i. The curves cut off the corners of the side that the saddle is not on.
+      const double saddle = (p[0] - level_) * (p[kStride[u] + kStride[v]] - level_) -
+                            (p[kStride[u]] - level_) * (p[kStride[v]] - level_);  // > 0: on the side of a and c
+      const bool cut_off_even = saddle < 0 || (saddle == 0 && p[0] > level_);     // at the level counts as outside
+      for (int corner = cut_off_even ? 0 : 1; corner < 4; corner += 2) {
+        unite(parent_.data(), edge[(corner + 3) % 4][place], edge[corner][place]);
+      }
+    });
   }
 
-  std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
+  /// Numbers the pieces of the brick behind those of all bricks before.
+  void number_pieces(Local own) {
+    for (Local edge = 0; edge < count_; ++edge) {
+      const Local root = find_root(parent_.data(), edge);
+      if (root == edge) pieces_.push_back(static_cast<std::uint32_t>(pieces_.size()));
+      piece_of_[edge] = root == edge ? pieces_.back() : piece_of_[root];
+    }
+    result_.of_crossing.insert(result_.of_crossing.end(), piece_of_.begin(), piece_of_.begin() + own);
+    extents_.resize(pieces_.size());
   }
 
-  void join(std::uint64_t a, std::uint64_t b) {
-    const std::uint32_t ra = root(index_.find(a)), rb = root(index_.find(b));
-    parent_[std::max(ra, rb)] = std::min(ra, rb);
+  void add_extents(const Index3& brick, const BrickEdges& edges) {
+    const std::uint32_t* piece = piece_of_.data();
+    for_each_crossed_edge(field_, brick, edges, [&](const CrossedEdge& edge) {
+      SurfaceComponents::Component& extent = extents_[*piece++];
+      extent.box.extend(edge.point(level_));
+      ++extent.crossings;
+    });
+  }
+
+  /// Joins the pieces to those that the bricks before found of the same edges, and leaves word for the bricks to come.
+  void exchange_planes(const Index3& brick, const BrickEdges& edges) {
+    const std::size_t column = static_cast<std::size_t>(brick[1]) * field_.brick_counts()[0] + brick[0];
+    const std::array<Plane*, 3> planes{&handed_[0][0], &handed_[1][brick[0]], &handed_[2][column]};
+    for (int side = 0; side < 3; ++side) {
+      Plane& plane = *planes[side];
+      for_each_on_side<false>(edges, side, [&](int axis, int place, int number) {
+        unite(pieces_.data(), piece_of_[edge_at_[axis][place]], plane[number]);
+      });
+      for_each_on_side<true>(edges, side, [&](int axis, int place, int number) {
+        plane[number] = piece_of_[edge_at_[axis][place]];
+      });
+    }
   }
 
   void number_components() {
-    constexpr std::uint32_t kUnnamed = 0xffffffffu;
-    std::vector<std::uint32_t> number(parent_.size(), kUnnamed);
-    for (std::uint32_t i = 0; i < parent_.size(); ++i) {
-      std::uint32_t& n = number[root(i)];
-      if (n == kUnnamed) n = static_cast<std::uint32_t>(result_.components++);
-      result_.crossings[i].component = n;
+    std::vector<std::uint32_t> number(pieces_.size());
+    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
+      const std::uint32_t root = find_root(pieces_.data(), piece);
+      if (root == piece) {
+        number[piece] = static_cast<std::uint32_t>(result_.components.size());
+        result_.components.push_back(extents_[piece]);
+        continue;
+      }
+      number[piece] = number[root];
+      SurfaceComponents::Component& whole = result_.components[number[root]];
+      const SurfaceComponents::Component& part = extents_[piece];
+      whole.crossings += part.crossings;
+      if (part.box.empty()) continue;
+      whole.box.extend(part.box.min);
+      whole.box.extend(part.box.max);
     }
+    for (std::uint32_t& component : result_.of_crossing) component = number[component];
   }
 
   const BrickField& field_;
   double level_;
-  GridCrossings result_;
-  FlatHash index_;
-  std::vector<std::uint32_t> parent_;
+  SurfaceComponents result_;
+
+  // Of the brick under way.
+  Local count_ = 0;
+  std::array<std::array<Local, kBlockSize>, 3> edge_at_{};  // by axis and beginning; read only where crossed
+  std::array<Local, 3 * kBlockSize> parent_{};
+  std::array<std::uint32_t, 3 * kBlockSize> piece_of_{};
+
+  std::vector<std::uint32_t> pieces_;  // union-find over the pieces of all bricks
+  std::vector<SurfaceComponents::Component> extents_;
+  std::array<std::vector<Plane>, 3> handed_;  // across each axis, to the next brick along it
 };
 
 }  // namespace
 
-GridCrossings find_crossings(const BrickField& field) { return CrossingFinder(field).run(); }
+SurfaceComponents find_components(const BrickField& field, const GoOn& go_on) {
+  return ComponentFinder(field).run(go_on);
+}
 
 }  // namespace delvox

@@ -8,19 +8,25 @@ namespace delvox {
 namespace {
 
 using Index3 = std::array<int, 3>;
+using Wanted = std::function<bool(const Point3&)>;
 constexpr int kBlock = BrickField::kBlock, kBrick = BrickField::kBrick;
 constexpr auto& kStride = BrickField::kBlockStride;
 /// Points along a segment of the skeleton, its ends apart.
 constexpr int kPerSegment = 3;
-constexpr std::uint32_t kNotYet = 0xffffffffu;
+constexpr std::uint32_t kNotYet = 0xffffffffu, kUnwanted = 0xfffffffeu;
 
 class LandmarkFinder {
  public:
-  explicit LandmarkFinder(const BrickField& field) : field_(field), level_(field.level()) {}
+  LandmarkFinder(const BrickField& field, const Wanted& wanted)
+      : field_(field), wanted_(wanted), level_(field.level()) {}
 
-  Landmarks run() {
-    field_.for_each_mixed_brick([this](const Index3& brick) { visit_brick(brick); });
-    return std::move(result_);
+  Landmarks run(const GoOn& go_on) {
+    bool stopped = false;
+    field_.for_each_mixed_brick([&](const Index3& brick) {
+      stopped = stopped || !go_on();
+      if (!stopped) visit_brick(brick);
+    });
+    return stopped ? Landmarks{} : std::move(result_);
   }
 
  private:
@@ -71,10 +77,15 @@ class LandmarkFinder {
   }
 
   void visit_cell(const float* block, int base, const Index3& cell) {
+    bool any_wanted = false;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Index3 sample{cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1)};
+      any_wanted |= add_sample(base + offset(corner), sample) != kUnwanted;
+    }
+    if (!any_wanted) return;
     for (int corner = 0; corner < 8; ++corner) {
       const Index3 sample{cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2 & 1)};
       const int at = base + offset(corner);
-      add_sample(at, sample);
       for (int axis = 0; axis < 3; ++axis) {
         if (!(corner >> axis & 1)) add_edge(block, at, sample, axis);
         const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -85,6 +96,7 @@ class LandmarkFinder {
   }
 
   std::uint32_t add_point(const Point3& p) {
+    if (!wanted_(p)) return kUnwanted;
     result_.points.push_back(p);
     return static_cast<std::uint32_t>(result_.points.size() - 1);
   }
@@ -146,10 +158,12 @@ class LandmarkFinder {
   }
 
   void add_segment(std::uint32_t first, std::uint32_t last) {
+    if (first == kUnwanted || last == kUnwanted) return;
     const Point3 a = result_.points[first], b = result_.points[last];
     std::uint32_t before = first;
     for (int step = 1; step <= kPerSegment; ++step) {
       const std::uint32_t next = add_point(a + (step / (kPerSegment + 1.0)) * (b - a));
+      if (next == kUnwanted) return;
       result_.links.push_back({before, next});
       before = next;
     }
@@ -157,15 +171,19 @@ class LandmarkFinder {
   }
 
   const BrickField& field_;
+  const Wanted& wanted_;
   double level_;
   Index3 brick_{};
-  std::array<std::uint32_t, BrickField::kBlockSize> samples_{};  // index of each sample's point
+  std::array<std::uint32_t, BrickField::kBlockSize> samples_{};  // index of each sample's point, or one of the constants
   std::array<std::array<bool, BrickField::kBlockSize>, 3> edge_done_{}, face_done_{};
   Landmarks result_;
 };
 
 }  // namespace
 
-Landmarks voxel_landmarks(const BrickField& field) { return LandmarkFinder(field).run(); }
+Landmarks voxel_landmarks(const BrickField& field, const std::function<bool(const Point3&)>& wanted,
+                          const GoOn& go_on) {
+  return LandmarkFinder(field, wanted).run(go_on);
+}
 
 }  // namespace delvox

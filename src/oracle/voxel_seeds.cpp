@@ -17,108 +17,104 @@ constexpr double kDensity = 0.9;
 constexpr double kCandidatesPerSquare = 6;
 /// A component keeps all its crossings if it has no more than this.
 constexpr std::size_t kFewCrossings = 24;
+/// At most this many candidates for a crossing, where the spacing is below a voxel.
+constexpr int kMostCopies = 64;
 
-struct ComponentExtent {
-  Box3 box;  // world
-  std::size_t crossings = 0;
-};
-
-std::uint64_t hash_edge(const GridCrossing& c, std::uint64_t salt) {
-  std::uint64_t h = salt;
-  for (int entry : c.sample) h = mix_hash(h ^ static_cast<std::uint64_t>(entry));
-  return mix_hash(h ^ static_cast<std::uint64_t>(c.axis));
+std::uint64_t hash_edge(const CrossedEdge& edge, std::uint64_t salt) {
+  const std::uint64_t place = static_cast<std::uint64_t>(edge.sample[0]) | static_cast<std::uint64_t>(edge.sample[1]) << 21 |
+                              static_cast<std::uint64_t>(edge.sample[2]) << 42 | static_cast<std::uint64_t>(edge.axis) << 62;
+  return mix_hash(mix_hash(place) ^ salt);
 }
 
+/// Walks over the crossings brick by brick and keeps nothing of them but the seeds.
 class SeedMaker {
  public:
-  SeedMaker(const BrickField& field, const Affine3& grid_to_world, const Spacing& spacing)
-      : field_(field), to_world_(grid_to_world), spacing_(spacing), found_(find_crossings(field)) {
-    voxel_ = std::min({norm(to_world_.column(0)), norm(to_world_.column(1)), norm(to_world_.column(2))});
-    measure_components();
+  SeedMaker(const BrickField& field, const Affine3& grid_to_world, const SizeField& size, const GoOn& go_on)
+      : field_(field),
+        to_world_(grid_to_world),
+        size_(size),
+        go_on_(go_on),
+        found_(find_components(field, go_on)),
+        thinner_(kDensity * size.minimum()) {
+    for (int axis = 0; axis < 3; ++axis) steps_[axis] = norm(to_world_.column(axis));
+    voxel_ = std::min({steps_.x, steps_.y, steps_.z});
+    least_spacing_ = kDensity * size.minimum();
   }
 
   Seeds run() {
-    collect_candidates();
-    Seeds seeds;
-    seeds.components = found_.components;
-    for (std::uint32_t index : thin_poisson(spaced_)) {
-      const Candidate& candidate = candidates_[index];
-      seeds.points.push_back(candidate.placed ? candidate.grid_point : jittered(candidate));
-    }
-    return seeds;
+    seeds_.components = found_.components.size();
+    const std::uint32_t* component = found_.of_crossing.data();
+    field_.for_each_mixed_brick([&](const std::array<int, 3>& brick) {
+      if (stopped_) return;
+      for_each_crossed_edge(field_, brick, BrickEdges(field_, brick),
+                            [&](const CrossedEdge& edge) { visit(edge, *component++); });
+    });
+    return std::move(seeds_);
   }
 
  private:
-  struct Candidate {
-    std::uint32_t crossing;
-    std::uint32_t copy;   // several candidates per crossing where the spacing is below a voxel
-    Point3 grid_point;
-    bool placed;          // already jittered
-    double spacing;       // world
-    std::uint64_t order;
-  };
+  void visit(const CrossedEdge& edge, std::uint32_t number) {
+    const SurfaceComponents::Component& component = found_.components[number];
+    if (component.crossings <= kFewCrossings) {
+      seeds_.points.push_back(jittered(edge, 0, std::min(0.5, 0.05 * diagonal(component) / voxel_)));
+      return;
+    }
+    // Most are turned away by their hash, if the spacing is wide, before anything is computed.
+    const double extent = diagonal(component), draw = unit_interval(hash_edge(edge, 0));
+    if (!drawn(draw, std::min(least_spacing_, extent / 3), extent) || stopped_) return;
+    const Point3 crossing = edge.point(field_.level());
+    const Point3 world = to_world_(crossing);
+    const double spacing = std::min(kDensity * size_(world), extent / 3);
+    if (!size_.constant() && !drawn(draw, spacing, extent)) return;
+    stopped_ = !go_on_();
+    add_seeds(edge, world, spacing);
+  }
 
-  void measure_components() {
-    extents_.resize(found_.components);
-    for (const GridCrossing& c : found_.crossings) {
-      extents_[c.component].box.extend(to_world_(c.point()));
-      ++extents_[c.component].crossings;
+  /// Length in world of a component's box.
+  double diagonal(const SurfaceComponents::Component& component) const {
+    const Vector3 size = component.box.max - component.box.min;
+    return norm({steps_.x * size.x, steps_.y * size.y, steps_.z * size.z});
+  }
+
+  double per_voxel(double spacing) const { return voxel_ / (0.9 * spacing); }
+
+  /// Whether a crossing is a candidate; all are where the component is not much larger than the spacing.
+  bool drawn(double draw, double spacing, double extent) const {
+    return spacing >= 0.1 * extent || draw <= kCandidatesPerSquare * per_voxel(spacing) * per_voxel(spacing);
+  }
+
+  void add_seeds(const CrossedEdge& edge, const Point3& world, double spacing) {
+    const double squared = per_voxel(spacing) * per_voxel(spacing);
+    const int copies = static_cast<int>(std::clamp(std::ceil(squared), 1.0, double(kMostCopies)));
+    if (spacing > 2 * voxel_) {
+      // Jittered after thinning: few are kept, and they are moved by a fraction of their spacing.
+      if (thinner_.keep(world, spacing)) seeds_.points.push_back(jittered(edge, 0, 0.5));
+      return;
+    }
+    const double reach = spacing < voxel_ ? 0.5 : 0.25 * spacing / voxel_;
+    for (int copy = 0; copy < copies; ++copy) {
+      const Point3 p = jittered(edge, copy, reach);
+      if (thinner_.keep(to_world_(p), spacing)) seeds_.points.push_back(p);
     }
   }
 
-  double wanted_spacing(const GridCrossing& c, const Point3& world) const {
-    const ComponentExtent& extent = extents_[c.component];
-    const double wanted = kDensity * spacing_(world);
-    // All crossings of a speck: thinned to a third of its size it could lose the very points that span it.
-    if (extent.crossings <= kFewCrossings) return std::min(wanted, 1e-3 * extent.box.diagonal());
-    return std::min(wanted, extent.box.diagonal() / 3);
-  }
-
-  void collect_candidates() {
-    for (std::uint32_t index = 0; index < found_.crossings.size(); ++index) {
-      const GridCrossing& c = found_.crossings[index];
-      const double spacing = wanted_spacing(c, to_world_(c.point()));
-      const bool speck = extents_[c.component].crossings <= kFewCrossings;
-      const double per_voxel = voxel_ / (0.9 * spacing);
-      const bool large = spacing < 0.1 * extents_[c.component].box.diagonal();
-      if (large && unit_interval(hash_edge(c, 0)) > kCandidatesPerSquare * per_voxel * per_voxel) continue;
-      const int copies = speck ? 1 : std::clamp(static_cast<int>(std::ceil(per_voxel * per_voxel)), 1, 64);
-      for (std::uint32_t copy = 0; copy < static_cast<std::uint32_t>(copies); ++copy) {
-        Candidate candidate{index, copy, c.point(), false, spacing, hash_edge(c, copy)};
-        if (copies > 1) {
-          candidate.grid_point = jittered(candidate);
-          candidate.placed = true;
-        }
-        candidates_.push_back(candidate);
-      }
-    }
-    std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-      return a.order != b.order ? a.order < b.order
-                                : std::pair(a.crossing, a.copy) < std::pair(b.crossing, b.copy);
-    });
-    for (const Candidate& c : candidates_) spaced_.push_back({to_world_(c.grid_point), c.spacing});
-  }
-
-  /// A crossing on a line parallel to the grid edge, moved sideways by a hash of the edge; nearer to the edge if the
-  /// first line misses the surface.
-  Point3 jittered(const Candidate& candidate) const {
-    const GridCrossing& c = found_.crossings[candidate.crossing];
-    const bool several = candidate.copy > 0 || candidate.spacing < voxel_;
-    double reach = several ? 0.5 : std::min(0.5, 0.25 * candidate.spacing / voxel_);
-    if (extents_[c.component].crossings <= kFewCrossings) reach = std::min(reach, 0.05 * grid_extent(c.component));
-    for (std::uint64_t attempt = 0; attempt < 4; ++attempt, reach *= 0.25) {
-      const std::uint64_t h = hash_edge(c, mix_hash(candidate.copy * 4 + attempt + 1));
-      Point3 low{double(c.sample[0]), double(c.sample[1]), double(c.sample[2])};
-      low[(c.axis + 1) % 3] += reach * (2 * unit_interval(h) - 1);
-      low[(c.axis + 2) % 3] += reach * (2 * unit_interval(mix_hash(h)) - 1);
+  /// A crossing on a line parallel to the grid edge, moved sideways by up to `reach` by a hash of the edge; nearer to
+  /// the edge if the first line misses the surface.
+  Point3 jittered(const CrossedEdge& edge, int copy, double reach) const {
+    constexpr int kAttempts = 4;
+    for (int attempt = 0; attempt < kAttempts; ++attempt, reach *= 0.25) {
+      const std::uint64_t h = hash_edge(edge, static_cast<std::uint64_t>(copy * kAttempts + attempt + 1));
+      Point3 low{double(edge.sample[0]), double(edge.sample[1]), double(edge.sample[2])};
+      low[(edge.axis + 1) % 3] += reach * (2 * unit_interval(h) - 1);
+      low[(edge.axis + 2) % 3] += reach * (2 * unit_interval(mix_hash(h)) - 1);
       Point3 high = low;
-      high[c.axis] += 1;
+      high[edge.axis] += 1;
       if (!field_.contains(low) || !field_.contains(high)) continue;
       const double value_low = field_.value(low), value_high = field_.value(high);
       if ((value_low > 0) == (value_high > 0)) continue;
-      return crossing_on_line(low, c.axis, value_low, value_high);
+      return crossing_on_line(low, edge.axis, value_low, value_high);
     }
-    return c.point();
+    return edge.point(field_.level());
   }
 
   Point3 crossing_on_line(const Point3& low, int axis, double value_low, double value_high) const {
@@ -131,22 +127,22 @@ class SeedMaker {
     return at(bracketed_root([&](double t) { return field_.value(at(t)); }, 0, value_low, 1, value_high, scale));
   }
 
-  double grid_extent(std::uint32_t component) const { return extents_[component].box.diagonal() / voxel_; }
-
   const BrickField& field_;
   const Affine3& to_world_;
-  const Spacing& spacing_;
-  GridCrossings found_;
-  double voxel_ = 1;
-  std::vector<ComponentExtent> extents_;
-  std::vector<Candidate> candidates_;
-  std::vector<SpacedPoint> spaced_;
+  const SizeField& size_;
+  const GoOn& go_on_;
+  SurfaceComponents found_;
+  PoissonThinner thinner_;
+  Vector3 steps_;  // world lengths of the voxel's edges
+  double voxel_ = 1, least_spacing_ = 1;
+  bool stopped_ = false;
+  Seeds seeds_;
 };
 
 }  // namespace
 
-Seeds voxel_seeds(const BrickField& field, const Affine3& grid_to_world, const Spacing& spacing) {
-  return SeedMaker(field, grid_to_world, spacing).run();
+Seeds voxel_seeds(const BrickField& field, const Affine3& grid_to_world, const SizeField& size, const GoOn& go_on) {
+  return SeedMaker(field, grid_to_world, size, go_on).run();
 }
 
 }  // namespace delvox

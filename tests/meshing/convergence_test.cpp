@@ -58,7 +58,7 @@ TEST_P(Convergence, VolumeAndAreaErrorsFallWithTheSquareOfTheSizeAndTheDistanceI
   const Shape& shape = GetParam();
   const PhantomOptions image = test::cubic_image(64);
   const PhantomTruth truth = phantom_truth(shape.kind, image);
-  const auto oracle = test::implicit_phantom_oracle(shape.kind, image, 1.0);
+  const auto oracle = test::implicit_phantom_oracle(shape.kind, image, 0.5);
   Errors errors;
   for (double size : shape.sizes) {
     const SurfaceMesh mesh = mesh_at(*oracle, size);

@@ -74,7 +74,7 @@ void expect_agreement(const Volume& volume, const Isosurface& surface) {
     }
     ASSERT_TRUE(field.contains(u));
     const double expected = naive.value(u);
-    if (field.in_mixed_brick(u)) {
+    if (field.sample(u).known) {
       ASSERT_NEAR(field.value(u), expected, 1e-14 * scale);
     }
     if (std::abs(expected) > 1e-14 * scale) {
@@ -110,7 +110,7 @@ TEST(BrickField, IsContinuousAcrossBrickFaces) {
     Point3 before = u, after = u;
     before[axis] -= 1e-9;
     after[axis] += 1e-9;
-    if (!field.in_mixed_brick(before) || !field.in_mixed_brick(after)) continue;
+    if (!field.sample(before).known || !field.sample(after).known) continue;
     ++tested;
     ASSERT_NEAR(field.value(before), field.value(after), 1e-8);
   }
@@ -153,7 +153,7 @@ TEST(BrickField, GradientIsTheDerivativeInsideCells) {
   for (int n = 0; n < 2000; ++n) {
     Point3 u;
     for (int axis = 0; axis < 3; ++axis) u[axis] = random.below(field.size()[axis] - 1) + random.between(0.01, 0.99);
-    if (!field.in_mixed_brick(u)) continue;
+    if (!field.sample(u).known) continue;
     for (int axis = 0; axis < 3; ++axis) {
       Point3 ahead = u, behind = u;
       ahead[axis] += 0.005;

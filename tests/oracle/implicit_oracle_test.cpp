@@ -57,7 +57,7 @@ TEST(ImplicitOracle, SeedsLieOnSmallComponentsToo) {
     return norm(p) - 3 < distance(p, small) - 0.8 ? (1 / norm(p)) * p : (1 / distance(p, small)) * (p - small);
   };
   const auto oracle = make_implicit_oracle(function);
-  const Seeds seeds = oracle->seeds([](const Point3&) { return 2.0; });
+  const Seeds seeds = oracle->seeds(2.0);
   EXPECT_EQ(seeds.components, 2u);
   int on_small = 0;
   for (const Point3& p : seeds.points) {

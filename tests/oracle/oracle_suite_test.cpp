@@ -248,9 +248,9 @@ TEST_P(OracleSuite, GrazingLinesHaveAnEvenNumberOfCrossingsOnTheSurface) {
 TEST_P(OracleSuite, SeedsLieOnTheSurfaceAndComeAlikeEachTime) {
   const auto oracle = make("shells");
   for (double spacing : {0.3, 1.0, 4.0, 50.0}) {
-    const Seeds seeds = oracle->seeds([&](const Point3&) { return spacing; });
+    const Seeds seeds = oracle->seeds(spacing);
     for (const Point3& p : seeds.points) expect_on_surface(*oracle, p);
-    EXPECT_EQ(oracle->seeds([&](const Point3&) { return spacing; }).points, seeds.points);
+    EXPECT_EQ(oracle->seeds(spacing).points, seeds.points);
   }
 }
 
@@ -262,7 +262,7 @@ TEST_P(OracleSuite, EveryComponentHasSeedsThatSpanItHoweverWideTheSpacing) {
     half_extent = std::min(half_extent, 0.5 * image.dims[axis] * image.spacing[axis]);
   }
   for (double spacing : {0.5, 5.0, 1000.0}) {
-    const Seeds seeds = oracle->seeds([&](const Point3&) { return spacing; });
+    const Seeds seeds = oracle->seeds(spacing);
     EXPECT_EQ(seeds.components, 3u);
     for (double fraction : {0.8, 0.5, 0.25}) {
       const double radius = fraction * half_extent;
@@ -282,7 +282,7 @@ TEST_P(OracleSuite, EveryComponentHasSeedsThatSpanItHoweverWideTheSpacing) {
 TEST_P(OracleSuite, SeedsAreSpacedAsAskedAndLeaveNoGap) {
   const auto oracle = make("sphere");
   for (double spacing : {0.5, 1.5, 4.0}) {
-    const auto points = oracle->seeds([&](const Point3&) { return spacing; }).points;
+    const auto points = oracle->seeds(spacing).points;
     double closest = Box3::kInfinity;
     for (std::size_t i = 0; i < points.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) closest = std::min(closest, distance(points[i], points[j]));
@@ -304,7 +304,7 @@ TEST_P(OracleSuite, SeedsAreSpacedAsAskedAndLeaveNoGap) {
 TEST_P(OracleSuite, SeedsFollowASpacingThatVaries) {
   const auto oracle = make("sphere");
   const Point3 c = center();
-  const auto points = oracle->seeds([&](const Point3& p) { return p.x < c.x ? 3.0 : 1.0; }).points;
+  const auto points = oracle->seeds({[&](const Point3& p) { return p.x < c.x ? 3.0 : 1.0; }, 1.0, 3.0}).points;
   const auto sparse = std::count_if(points.begin(), points.end(), [&](const Point3& p) { return p.x < c.x; });
   const double ratio = static_cast<double>(points.size() - sparse) / static_cast<double>(sparse);
   EXPECT_GT(ratio, 5);
@@ -327,8 +327,7 @@ TEST_P(OracleSuite, ACloneGivesTheSameAnswersAndOutlivesItsOriginal) {
       EXPECT_EQ(clone->intersect(a, b), reference->intersect(a, b));
     }
   }
-  const auto spacing = [](const Point3&) { return 2.0; };
-  EXPECT_EQ(clone->seeds(spacing).points, reference->seeds(spacing).points);
+  EXPECT_EQ(clone->seeds(2.0).points, reference->seeds(2.0).points);
 }
 
 TEST_P(OracleSuite, GradientIsTheDerivativeOfTheValueNearTheSurface) {

@@ -101,26 +101,35 @@ class BruteForce {
 std::size_t expect_agreement(const Volume& volume, const Isosurface& surface) {
   const LevelSet level_set(surface);
   const BrickField field(volume, level_set);
-  const GridCrossings found = find_crossings(field);
+  const SurfaceComponents found = find_components(field, always_go_on);
   BruteForce expected(volume, level_set);
-  EXPECT_EQ(found.crossings.size(), expected.positions().size());
-  EXPECT_EQ(found.components, expected.components());
+  EXPECT_EQ(found.of_crossing.size(), expected.positions().size());
+  EXPECT_EQ(found.components.size(), expected.components());
   std::map<std::uint32_t, Edge> partner;
+  std::vector<SurfaceComponents::Component> extents(found.components.size());
   std::set<Edge> seen;
-  for (const GridCrossing& c : found.crossings) {
-    const Edge e{c.sample[0], c.sample[1], c.sample[2], c.axis};
-    EXPECT_TRUE(seen.insert(e).second);
-    const auto known = expected.positions().find(e);
-    if (known == expected.positions().end()) {
-      ADD_FAILURE() << "an edge that is not crossed";
-      continue;
-    }
-    EXPECT_NEAR(c.position, known->second, 1e-12);
-    EXPECT_LT(c.component, found.components);
-    const auto [entry, is_new] = partner.try_emplace(c.component, expected.representative(e));
-    EXPECT_EQ(entry->second, expected.representative(e));
+  const std::uint32_t* component = found.of_crossing.data();
+  field.for_each_mixed_brick([&](const std::array<int, 3>& brick) {
+    for_each_crossed_edge(field, brick, BrickEdges(field, brick), [&](const CrossedEdge& c) {
+      const std::uint32_t number = *component++;
+      const Edge e{c.sample[0], c.sample[1], c.sample[2], c.axis};
+      EXPECT_TRUE(seen.insert(e).second);
+      ASSERT_TRUE(expected.positions().contains(e)) << "an edge that is not crossed";
+      const Point3 p = c.point(field.level());
+      EXPECT_NEAR(p[c.axis] - c.sample[c.axis], expected.positions().at(e), 1e-12);
+      ASSERT_LT(number, found.components.size());
+      extents[number].box.extend(p);
+      ++extents[number].crossings;
+      const auto [entry, is_new] = partner.try_emplace(number, expected.representative(e));
+      EXPECT_EQ(entry->second, expected.representative(e));
+    });
+  });
+  for (std::size_t i = 0; i < extents.size(); ++i) {
+    EXPECT_EQ(found.components[i].box.min, extents[i].box.min);
+    EXPECT_EQ(found.components[i].box.max, extents[i].box.max);
+    EXPECT_EQ(found.components[i].crossings, extents[i].crossings);
   }
-  return found.components;
+  return found.components.size();
 }
 
 TEST(SurfaceCrossings, AgreeWithBruteForceOnShapes) {

@@ -17,10 +17,12 @@ PhantomOptions noisy_image() {
   return image;
 }
 
+bool everywhere(const Point3&) { return true; }
+
 TEST(VoxelLandmarks, LinksStayOnOneSideOfTheSurface) {
   const Volume volume = make_phantom("noisy-sphere", noisy_image());
   const BrickField field(volume, LevelSet(Isosurface{0, false}));
-  const Landmarks landmarks = voxel_landmarks(field);
+  const Landmarks landmarks = voxel_landmarks(field, everywhere, always_go_on);
   ASSERT_FALSE(landmarks.links.empty());
   for (const auto& [a, b] : landmarks.links) {
     const Point3 &p = landmarks.points[a], &q = landmarks.points[b];
@@ -38,7 +40,7 @@ TEST(VoxelLandmarks, LinksJoinTheInsideIntoItsComponents) {
     image.seed = seed;
     const Volume volume = make_phantom("noisy-sphere", image);
     const BrickField field(volume, LevelSet(Isosurface{0, false}));
-    const Landmarks landmarks = voxel_landmarks(field);
+    const Landmarks landmarks = voxel_landmarks(field, everywhere, always_go_on);
     std::vector<std::size_t> parent(landmarks.points.size());
     std::iota(parent.begin(), parent.end(), std::size_t{0});
     const auto root = [&](std::size_t i) {
@@ -56,9 +58,9 @@ TEST(VoxelLandmarks, LinksJoinTheInsideIntoItsComponents) {
 
 TEST(VoxelLandmarks, AreAskedOfTheOracleOnlyWhereTheMeshIsFinerThanAVoxel) {
   const auto oracle = make_isosurface_oracle(make_phantom("noisy-sphere", noisy_image()), {0, false});
-  EXPECT_TRUE(oracle->landmarks([](const Point3&) { return 1.01; }).points.empty());
-  const Landmarks all = oracle->landmarks([](const Point3&) { return 0.5; });
-  const Landmarks half = oracle->landmarks([](const Point3& p) { return p.x < 0 ? 0.5 : 2.0; });
+  EXPECT_TRUE(oracle->landmarks(1.01).points.empty());
+  const Landmarks all = oracle->landmarks(0.5);
+  const Landmarks half = oracle->landmarks({[](const Point3& p) { return p.x < 0 ? 0.5 : 2.0; }, 0.5, 2.0});
   EXPECT_FALSE(half.points.empty());
   EXPECT_LT(half.points.size(), all.points.size());
   for (const Point3& p : half.points) EXPECT_LT(p.x, 0);

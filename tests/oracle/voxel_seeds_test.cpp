@@ -24,12 +24,28 @@ Volume specks(int n, int gap, float peak) {
   return Volume(header, samples);
 }
 
+struct Crossing {
+  Point3 point;
+  std::uint32_t component;
+};
+
+std::vector<Crossing> crossings_of(const BrickField& field) {
+  const SurfaceComponents found = find_components(field, always_go_on);
+  std::vector<Crossing> result;
+  field.for_each_mixed_brick([&](const std::array<int, 3>& brick) {
+    for_each_crossed_edge(field, brick, BrickEdges(field, brick), [&](const CrossedEdge& edge) {
+      result.push_back({edge.point(field.level()), found.of_crossing[result.size()]});
+    });
+  });
+  return result;
+}
+
 TEST(VoxelSeeds, EverySpeckGetsSeedsOnAllItsSixSides) {
   // Voxels that stick out alone: spans of a fifth, and of a thousandth, of a voxel to either side.
   for (float peak : {1.25f, 1.001f}) {
     const Volume volume = specks(18, 3, peak);
     const BrickField field(volume, LevelSet(Isosurface{1, false}));
-    const Seeds seeds = voxel_seeds(field, Affine3{}, [](const Point3&) { return 10.0; });
+    const Seeds seeds = voxel_seeds(field, Affine3{}, 10.0, always_go_on);
     EXPECT_EQ(seeds.components, 216u);
     std::set<std::array<int, 4>> sides;
     for (const Point3& p : seeds.points) {
@@ -49,7 +65,7 @@ TEST(VoxelSeeds, EverySpeckGetsSeedsOnAllItsSixSides) {
 TEST(VoxelSeeds, LieOffTheGridLinesSoThatTheyAreNotCospherical) {
   const Volume volume = make_phantom("sphere", test::cubic_image(24));
   const BrickField field(volume, LevelSet(Isosurface{0, false}));
-  const Seeds seeds = voxel_seeds(field, Affine3{}, [](const Point3&) { return 1.5; });
+  const Seeds seeds = voxel_seeds(field, Affine3{}, 1.5, always_go_on);
   int on_lines = 0;
   for (const Point3& p : seeds.points) {
     int integers = 0;
@@ -64,19 +80,18 @@ TEST(VoxelSeeds, EveryComponentOfNoiseHasSeedsNearItsCrossings) {
   image.noise = 1;
   const Volume volume = make_phantom("noisy-sphere", image);
   const BrickField field(volume, LevelSet(Isosurface{0, false}));
-  const GridCrossings found = find_crossings(field);
-  const Seeds seeds = voxel_seeds(field, Affine3{}, [](const Point3&) { return 3.0; });
-  EXPECT_EQ(seeds.components, found.components);
-  std::vector<int> crossings(found.components, 0), seeded(found.components, 0);
-  for (const GridCrossing& c : found.crossings) ++crossings[c.component];
+  const std::vector<Crossing> crossings = crossings_of(field);
+  const Seeds seeds = voxel_seeds(field, Affine3{}, 3.0, always_go_on);
+  std::vector<int> count(seeds.components, 0), seeded(seeds.components, 0);
+  for (const Crossing& c : crossings) ++count.at(c.component);
   for (const Point3& p : seeds.points) {
-    const GridCrossing* nearest = nullptr;
-    for (const GridCrossing& c : found.crossings) {
-      if (nearest == nullptr || squared_distance(c.point(), p) < squared_distance(nearest->point(), p)) nearest = &c;
+    const Crossing* nearest = nullptr;
+    for (const Crossing& c : crossings) {
+      if (nearest == nullptr || squared_distance(c.point, p) < squared_distance(nearest->point, p)) nearest = &c;
     }
     ++seeded[nearest->component];
   }
-  for (std::size_t c = 0; c < crossings.size(); ++c) EXPECT_GE(seeded[c], std::min(4, crossings[c])) << c;
+  for (std::size_t c = 0; c < count.size(); ++c) EXPECT_GE(seeded[c], std::min(4, count[c])) << c;
 }
 
 }  // namespace

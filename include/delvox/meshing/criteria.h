@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "delvox/meshing/size_field.h"
+#include "delvox/core/size_field.h"
 
 namespace delvox {
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "delvox/core/geometry.h"
+#include "delvox/core/size_field.h"
 
 namespace delvox {
 
@@ -16,8 +17,10 @@ struct Seeds {
   std::size_t components = 0;
 };
 
-/// Wanted distance of surface points at a place, mm.
-using Spacing = std::function<double(const Point3&)>;
+/// Asked now and then during long work: false ends it with what there is by then. May throw to end it with nothing.
+using GoOn = std::function<bool()>;
+/// Never ends anything.
+inline bool always_go_on() { return true; }
 
 /// A skeleton of a domain and of its outside: points, and straight links between points of one label that do not leave
 /// it. A mesh whose tets carry the labels of the points in them, and whose pieces are joined as the links say, has the
@@ -42,11 +45,12 @@ class Oracle {
   virtual Point3 intersect(const Point3& a, const Point3& b) const = 0;
   /// Every crossing of segment ab with the surface, in order from a; also of edges that are not bipolar.
   virtual std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const = 0;
-  /// Points on the surface at about the given spacing (sparse subsets of it may be dropped, components never).
-  virtual Seeds seeds(const Spacing& spacing) const = 0;
-  /// Landmarks that a mesh as fine as `spacing` can be held to; none if the domain knows none.
-  virtual Landmarks landmarks(const Spacing& spacing) const {
-    (void)spacing;
+  /// Points on the surface whose distances are about `size` (sparse subsets of it may be dropped, components never).
+  virtual Seeds seeds(const SizeField& size, const GoOn& go_on = always_go_on) const = 0;
+  /// Landmarks that a mesh as fine as `size` can be held to; none if the domain knows none, or is cut short by go_on.
+  virtual Landmarks landmarks(const SizeField& size, const GoOn& go_on = always_go_on) const {
+    (void)size;
+    (void)go_on;
     return {};
   }
   /// An independent oracle of the same domain.
