@@ -72,7 +72,9 @@ class BrickField {
   std::size_t brick_index(const std::array<int, 3>& b) const {
     return (static_cast<std::size_t>(b[2]) * brick_counts_[1] + b[1]) * brick_counts_[0] + b[0];
   }
-  void add_slab(const float* slab, const std::array<int, 3>& slab_size);
+  void find_sides(const Volume& volume, const LevelSet& level_set);
+  template <class Visit>
+  void for_each_brick_in_parallel(const Visit& visit);
 
   double level_;
   std::array<int, 3> size_, brick_counts_;
