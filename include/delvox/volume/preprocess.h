@@ -21,6 +21,7 @@ struct IndexBox {
 /// The part of a volume inside the box, which is clipped to the image.
 /// Throws NothingToMesh: nothing is left.
 VolumeSourcePtr crop(const VolumeSourcePtr& source, const IndexBox& box);
+/// The same for a whole volume.
 Volume crop(const Volume& volume, const IndexBox& box);
 
 /// The smallest index box around a world box (mm, the volume's frame) cut with the image: all voxels whose centers lie
@@ -42,6 +43,7 @@ struct SmoothOptions {
 /// its axes were orthogonal.
 /// Throws OptionError: sigma negative, not finite, or beyond the extent of the image.
 VolumeSourcePtr smooth(const VolumeSourcePtr& source, const SmoothOptions& options);
+/// The same for a whole volume.
 Volume smooth(const Volume& volume, const SmoothOptions& options);
 
 /// How resample() works.
@@ -57,6 +59,7 @@ struct ResampleOptions {
 /// (Cardoso et al., MICCAI 2015).
 /// Throws OptionError: spacing not positive and finite, more than 2^31 voxels.
 VolumeSourcePtr resample(const VolumeSourcePtr& source, const ResampleOptions& options);
+/// The same for a whole volume.
 Volume resample(const Volume& volume, const ResampleOptions& options);
 
 /// The same samples with the order along one axis (0 to 2) reversed, at the same world positions.

@@ -44,6 +44,7 @@ class VolumeSource {
  private:
   VolumeHeader header_;
 };
+/// Sources are immutable and shared.
 using VolumeSourcePtr = std::shared_ptr<const VolumeSource>;
 
 /// The volume as a source; shares its samples.
