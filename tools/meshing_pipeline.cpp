@@ -16,8 +16,10 @@
 #include "progress.h"
 #include "report_json.h"
 #include "signals.h"
+#include "size_search.h"
 #include "sizes.h"
 #include "stopwatch.h"
+#include "thread_limit.h"
 #include "verdict.h"
 
 namespace delvox::tools {
@@ -160,21 +162,28 @@ void MeshingRun::mesh_at(const SizeField& size) {
                   "; removed " + grouped(run_report_.removals));
 }
 
-// --tets: meshes at sizes that close in on the wanted number.
+// --tets: meshes at sizes that close in on the wanted number. A size whose default --min-component takes everything out
+// has too few tets.
 void MeshingRun::search_size() {
   double last_size = 0;
   const double first_size = guess_size(options_.tets, *volume_, chosen_.surface);
   const SizeSearch found = find_size(options_.tets, first_size, [&](double size) -> std::optional<std::size_t> {
     last_size = size;
-    mesh_at(size);
+    try {
+      mesh_at(size);
+    } catch (const NothingToMesh&) {
+      if (options_.isosurface.min_component) throw;  // no size helps
+      console_.note("size " + number(size) + " mm: all components are below the default of --min-component");
+      return 0;
+    }
     const std::size_t tets = std::get<TetMesh>(mesh_).tets.size();
     console_.note("size " + number(size) + " mm: " + plural(tets, "tet"));
     if (run_report_.stop != StopReason::kFinished) return std::nullopt;
     return tets;
   });
-  if (found.size != last_size) mesh_at(found.size);
-  size_sentence_ = "size " + number(found.size, 6) + " mm, found in " + plural(found.tries, "run") + " for " +
-                   plural(options_.tets, "tet");
+  const bool nothing_yet = found.tets == 0 && found.end != SearchEnd::kStopped;
+  if (found.size != last_size || nothing_yet) mesh_at(found.size);
+  size_sentence_ = describe(found, options_.tets);
   console_.note(size_sentence_);
 }
 
@@ -259,6 +268,7 @@ void run_meshing(const Verb& verb, const Arguments& arguments, MeshKind kind) {
   MeshingOptions options;
   options.kind = kind;
   add_meshing_options(app, options);
+  const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
   Json report = run_header(verb, arguments);
   report["options"] = options_json(app);

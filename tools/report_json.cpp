@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/output_file.h"
+#include "thread_limit.h"
 
 namespace delvox::tools {
 namespace {
@@ -103,7 +104,8 @@ Json run_header(const Verb& verb, const Arguments& arguments) {
   for (const std::string& argument : arguments) command.push_back(argument);
   return {{"delvox", DELVOX_VERSION},
           {"command", std::move(command)},
-          {"hardware_threads", std::thread::hardware_concurrency()}};
+          {"hardware_threads", std::thread::hardware_concurrency()},
+          {"threads", threads_in_use()}};
 }
 
 Json options_json(const CLI::App& app) {

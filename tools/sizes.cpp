@@ -127,31 +127,4 @@ SizeField parse_size(const std::string& text, const std::string& option, Frame f
   return SizeField(size);
 }
 
-SizeSearch find_size(std::size_t wanted, double first_size,
-                     const std::function<std::optional<std::size_t>(double size)>& mesh_at) {
-  constexpr int kMostTries = 5;
-  constexpr double kTolerance = 0.03;
-  // How far off a try is, in the logarithm: negative if there are too few tets.
-  const auto excess = [wanted](std::size_t tets) {
-    return std::log(static_cast<double>(std::max<std::size_t>(tets, 1)) / static_cast<double>(wanted));
-  };
-  SizeSearch best;
-  double size = first_size, exponent = 3, last_size = 0, last_excess = 0;
-  for (int tries = 1; tries <= kMostTries; ++tries) {
-    const std::optional<std::size_t> tets = mesh_at(size);
-    const double now = excess(tets.value_or(0));
-    if (!tets || tries == 1 || std::abs(now) < std::abs(excess(best.tets))) best = {size, tets.value_or(0), tries};
-    best.tries = tries;
-    if (!tets || std::abs(now) <= kTolerance) break;
-    // Secant in the logarithms, kept near the cube law: counts jump a little.
-    if (tries > 1 && size != last_size) {
-      exponent = std::clamp((now - last_excess) / std::log(last_size / size), 1.5, 4.0);
-    }
-    last_size = size;
-    last_excess = now;
-    size *= std::exp(now / exponent);
-  }
-  return best;
-}
-
 }  // namespace delvox::tools

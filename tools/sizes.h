@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
 
 #include "delvox/meshing/size_field.h"
@@ -20,17 +18,5 @@ SizeField parse_size(const std::string& text, const std::string& option, Frame f
 
 /// A guess at the size that gives `tets` tets, from the volume inside. Throws NothingToMesh if no sample is inside.
 double guess_size(std::size_t tets, const Volume& volume, const Isosurface& surface);
-
-struct SizeSearch {
-  double size = 0;  ///< that came closest
-  std::size_t tets = 0;
-  int tries = 0;
-};
-
-/// Finds the size that gives about `wanted` tets: their number goes with size^-3, so each try corrects the last.
-/// `mesh_at(size)` returns how many there are at a size, or nothing to end the search (a limit stopped the run). Ends
-/// within 3 %, or after five tries. The first try is at `first_size`.
-SizeSearch find_size(std::size_t wanted, double first_size,
-                     const std::function<std::optional<std::size_t>(double size)>& mesh_at);
 
 }  // namespace delvox::tools

@@ -13,6 +13,7 @@
 #include "signals.h"
 #include "validators.h"
 #include "verdict.h"
+#include "thread_limit.h"
 #include "verbs.h"
 #include "volume_input.h"
 
@@ -132,6 +133,7 @@ void run_check(const Verb& verb, const Arguments& arguments) {
   CLI::App app(std::string(verb.summary) + "\n", std::string("delvox ") + verb.name);
   Options options;
   add_options(app, options);
+  const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
 
   for (const std::string& mesh : options.meshes) check_output(options.report, mesh);

@@ -4,6 +4,7 @@
 #include "delvox/mesh_io/read_mesh.h"
 #include "format.h"
 #include "mesh_output.h"
+#include "thread_limit.h"
 #include "verbs.h"
 
 namespace delvox::tools {
@@ -15,6 +16,7 @@ void run_convert(const Verb& verb, const Arguments& arguments) {
   ConsoleOptions console_options;
   app.add_option("MESH", path, "Mesh to read: .vtu .vtk .stl .ply .off .obj .mesh .msh .inp")->required();
   add_mesh_output_options(app, output);
+  const ThreadLimit threads(app);
   add_console_options(app, console_options, JsonFlag::kAbsent);
   if (!parse_arguments(app, arguments)) return;
 

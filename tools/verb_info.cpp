@@ -8,6 +8,7 @@
 #include "report_json.h"
 #include "signals.h"
 #include "text_histogram.h"
+#include "thread_limit.h"
 #include "verbs.h"
 #include "volume_input.h"
 
@@ -145,6 +146,7 @@ void run_info(const Verb& verb, const Arguments& arguments) {
   CLI::App app(std::string(verb.summary) + "\n", std::string("delvox ") + verb.name);
   Options options;
   add_options(app, options);
+  const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
 
   const Console console(options.console);

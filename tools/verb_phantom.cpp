@@ -10,6 +10,7 @@
 #include "report_json.h"
 #include "signals.h"
 #include "validators.h"
+#include "thread_limit.h"
 #include "verbs.h"
 #include "volume_input.h"
 
@@ -133,6 +134,7 @@ void run_phantom(const Verb& verb, const Arguments& arguments) {
   CLI::App app(std::string(verb.summary) + "\n", std::string("delvox ") + verb.name);
   Options options;
   add_options(app, options);
+  const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
 
   const PhantomOptions phantom = phantom_options(options);

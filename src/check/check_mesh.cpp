@@ -1,16 +1,17 @@
 #include "delvox/check/check_mesh.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "check/crossing_triangles.h"
 #include "check/element_quality.h"
-#include "check/exact_orientation.h"
 #include "check/point_checks.h"
 #include "check/report_builder.h"
 #include "check/surface_topology.h"
 #include "check/tet_topology.h"
 #include "check/voxel_checks.h"
+#include "core/parallel.h"
 
 namespace delvox {
 namespace {
@@ -19,35 +20,33 @@ using check::Precision;
 using check::ReportBuilder;
 using check::Tally;
 
+constexpr std::size_t kChunk = std::size_t{1} << 16;  // cells or points looked at together
+
 template <class Cell>
 Tally invalid_indices(const std::vector<Cell>& cells, std::size_t point_count) {
-  Tally faults;
-  for (const Cell& cell : cells) {
-    if (std::any_of(cell.begin(), cell.end(), [&](std::uint32_t v) { return v >= point_count; })) faults.add({});
-  }
-  return faults;
+  return sum_of(map_chunks(cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    Tally faults;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (*std::max_element(cells[i].begin(), cells[i].end()) >= point_count) faults.add({});
+    }
+    return faults;
+  }));
 }
 
 template <class Cell>
 Tally orphan_points(const std::vector<Point3>& points, const std::vector<Cell>& cells) {
-  std::vector<bool> used(points.size(), false);
-  for (const Cell& cell : cells) {
-    for (std::uint32_t v : cell) used[v] = true;
-  }
+  std::vector<std::uint8_t> used(points.size(), 0);
+  for_each_chunk(cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      // Several threads may say the same of one point.
+      for (std::uint32_t v : cells[i]) std::atomic_ref<std::uint8_t>(used[v]).store(1, std::memory_order_relaxed);
+    }
+  });
   Tally orphans;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!used[i]) orphans.add(points[i]);
+    if (used[i] == 0) orphans.add(points[i]);
   }
   return orphans;
-}
-
-Tally non_positive_tets(const TetMesh& mesh) {
-  Tally faults;
-  for (const Tet& t : mesh.tets) {
-    const Point3 &a = mesh.points[t[0]], &b = mesh.points[t[1]], &c = mesh.points[t[2]], &d = mesh.points[t[3]];
-    if (check::orientation(a, b, c, d) <= 0) faults.add(0.25 * ((a + b) + (c + d)));
-  }
-  return faults;
 }
 
 class MeshChecker {
@@ -117,7 +116,8 @@ class MeshChecker {
   }
 
   void check_tets() {
-    builder_.count("positive tets", non_positive_tets(*tets_));
+    quality_ = check::measure_tets(points_, tets_->tets, bounds_, precision_);
+    builder_.count("positive tets", quality_.not_positive);
     tet_topology_ = check::tet_topology(*tets_);
     builder_.count("no duplicate tets", tet_topology_.duplicate_tets);
     builder_.count("faces in one or two tets", tet_topology_.crowded_faces);
@@ -163,7 +163,7 @@ class MeshChecker {
 
   void check_bounds() {
     const check::TriangleQuality triangles = check::measure_triangles(points_, triangles_, bounds_, precision_);
-    builder_.count("no degenerate triangles", {triangles.degenerate, triangles.degenerate_where});
+    builder_.count("no degenerate triangles", triangles.degenerate);
     builder_.bounded("angle", triangles.angle, bounds_.min_angle_degrees, "deg");
     builder_.bounded("size", triangles.circumradius, bounds_.size, "mm",
                      "circumradius, the least radius that the surface ball can have");
@@ -171,14 +171,13 @@ class MeshChecker {
     report_.statistics.edge_mm = triangles.edges;
     if (bounds_.max_deviation) builder_.not_applicable("deviation", "needs the volume");
     if (tets_ == nullptr) return;
-    const check::TetQuality quality = check::measure_tets(points_, tets_->tets, bounds_, precision_);
-    builder_.bounded("radius-edge", quality.radius_edge, bounds_.radius_edge, "");
-    builder_.bounded("cell size", quality.circumradius, bounds_.cell_size, "mm");
-    builder_.bounded("dihedral", quality.dihedral, bounds_.min_dihedral_degrees, "deg");
-    report_.statistics.volume_mm3 = quality.volume_mm3;
-    report_.statistics.dihedral_degrees = quality.dihedrals;
-    report_.statistics.radius_edge = quality.ratios;
-    report_.statistics.edge_mm = quality.edges;
+    builder_.bounded("radius-edge", quality_.radius_edge, bounds_.radius_edge, "");
+    builder_.bounded("cell size", quality_.circumradius, bounds_.cell_size, "mm");
+    builder_.bounded("dihedral", quality_.dihedral, bounds_.min_dihedral_degrees, "deg");
+    report_.statistics.volume_mm3 = quality_.volume_mm3;
+    report_.statistics.dihedral_degrees = quality_.dihedrals;
+    report_.statistics.radius_edge = quality_.ratios;
+    report_.statistics.edge_mm = quality_.edges;
   }
 
   void check_voxels() {
@@ -188,8 +187,14 @@ class MeshChecker {
       return;
     }
     const Isosurface surface = options_.isosurface.value_or(Isosurface{info_.isovalue.value_or(0), info_.below});
-    const check::SurfaceOfMesh mesh{points_, triangles_, topology_, report_.statistics.volume_mm3, bounds_, precision_,
-                                    options_.open_border.value_or(info_.open_border), info_.isovalue.has_value()};
+    const check::SurfaceOfMesh mesh{points_,
+                                    triangles_,
+                                    topology_,
+                                    report_.statistics.volume_mm3,
+                                    bounds_,
+                                    precision_,
+                                    options_.open_border.value_or(info_.open_border),
+                                    info_.isovalue.has_value()};
     check::check_against_voxels(mesh, surface, options_, builder_, report_);
   }
 
@@ -202,6 +207,7 @@ class MeshChecker {
   CheckReport report_;
   ReportBuilder builder_;
   Precision precision_;
+  check::TetQuality quality_;
   check::TetTopology tet_topology_;
   check::SurfaceTopology topology_;
   std::span<const Triangle> triangles_;
@@ -227,6 +233,8 @@ const Check* CheckReport::find(const std::string& name) const {
   return found == checks.end() ? nullptr : &*found;
 }
 
-CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) { return MeshChecker(mesh, options).run(); }
+CheckReport check_mesh(const Mesh& mesh, const CheckOptions& options) {
+  return MeshChecker(mesh, options).run();
+}
 
 }  // namespace delvox

@@ -3,13 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numbers>
+#include <numeric>
+#include <tuple>
+
+#include "check/exact_orientation.h"
+#include "core/parallel.h"
 
 namespace delvox::check {
 namespace {
 
 constexpr double kRelativeTolerance = 1e-9;
 constexpr double kDegrees = 180 / std::numbers::pi;
+constexpr std::size_t kChunk = 8192;  // elements measured together
+
+double degrees_of_cosine(double cosine) {
+  return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
+}
 
 // Bins the arc cosine without computing it: cosines are looked up in a fine table and only the neighbours compared.
 class AngleBins {
@@ -36,32 +47,38 @@ class AngleBins {
   std::uint8_t start_[kTable];
 };
 
-Distribution make_distribution(double low, double high, std::size_t bins) {
-  Distribution d;
-  d.low = low;
-  d.high = high;
-  d.bins.assign(bins, 0);
-  d.min = std::numeric_limits<double>::infinity();
-  d.max = -d.min;
-  return d;
-}
+// Adds up to a Distribution, chunk by chunk.
+class Spread {
+ public:
+  Spread(double low, double high, std::size_t bins)
+      : low_(low), high_(high), per_unit_(static_cast<double>(bins) / (high - low)), bins_(bins, 0) {}
+  void add(double value) {
+    min_ = std::min(min_, value);
+    max_ = std::max(max_, value);
+    sum_ += value;
+    const double last = static_cast<double>(bins_.size()) - 1;
+    ++bins_[static_cast<std::size_t>(std::clamp((value - low_) * per_unit_, 0.0, last))];
+  }
+  void append(const Spread& later) {
+    min_ = std::min(min_, later.min_);
+    max_ = std::max(max_, later.max_);
+    sum_ += later.sum_;
+    for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += later.bins_[i];
+  }
+  Distribution distribution() const {
+    const std::size_t count = std::accumulate(bins_.begin(), bins_.end(), std::size_t{0});
+    if (count == 0) return {0, 0, 0, 0, low_, high_, bins_};
+    return {count, min_, max_, sum_ / static_cast<double>(count), low_, high_, bins_};
+  }
 
-void add(Distribution& d, double value) {
-  ++d.count;
-  d.min = std::min(d.min, value);
-  d.max = std::max(d.max, value);
-  d.mean += value;
-  const double place = (value - d.low) / (d.high - d.low) * static_cast<double>(d.bins.size());
-  ++d.bins[static_cast<std::size_t>(std::clamp(place, 0.0, static_cast<double>(d.bins.size()) - 1))];
-}
-
-void finish(Distribution& d) {
-  if (d.count == 0) d.min = d.max = 0;
-  else d.mean /= static_cast<double>(d.count);
-}
+ private:
+  double low_, high_, per_unit_;
+  double min_ = std::numeric_limits<double>::infinity(), max_ = -min_, sum_ = 0;
+  std::vector<std::size_t> bins_;
+};
 
 // Angles come as cosines: least and greatest are kept as such, the mean is that of the bins' middles.
-struct CosineDistribution {
+struct CosineSpread {
   double largest = -2, smallest = 2;
   std::array<std::size_t, AngleBins::kBins> bins{};
   void add(const AngleBins& bin_of, double cosine) {
@@ -69,30 +86,48 @@ struct CosineDistribution {
     smallest = std::min(smallest, cosine);
     ++bins[bin_of(cosine)];
   }
+  void append(const CosineSpread& later) {
+    largest = std::max(largest, later.largest);
+    smallest = std::min(smallest, later.smallest);
+    for (int i = 0; i < AngleBins::kBins; ++i) bins[i] += later.bins[i];
+  }
   Distribution degrees() const {
-    Distribution d = make_distribution(0, 180, AngleBins::kBins);
-    d.min = d.max = 0;
+    Distribution d;
+    d.high = 180;
+    d.bins.assign(bins.begin(), bins.end());
     for (int i = 0; i < AngleBins::kBins; ++i) {
-      d.bins[i] = bins[i];
       d.count += bins[i];
       d.mean += static_cast<double>(bins[i]) * (i + 0.5) * (180.0 / AngleBins::kBins);
     }
     if (d.count == 0) return d;
     d.mean /= static_cast<double>(d.count);
-    d.min = std::acos(std::clamp(largest, -1.0, 1.0)) * kDegrees;
-    d.max = std::acos(std::clamp(smallest, -1.0, 1.0)) * kDegrees;
+    d.min = degrees_of_cosine(largest);
+    d.max = degrees_of_cosine(smallest);
     return d;
   }
 };
 
-void keep_largest(Extreme& extreme, double value, const Point3& where) {
+// where() is asked only if the value is the worst so far.
+template <class Where>
+void keep_largest(Extreme& extreme, double value, const Where& where) {
   if (extreme.any && !(value > extreme.value)) return;
-  extreme = {value, true, where, extreme.violations};
+  extreme = {value, true, where(), extreme.violations};
 }
 
-void keep_smallest(Extreme& extreme, double value, const Point3& where) {
+template <class Where>
+void keep_smallest(Extreme& extreme, double value, const Where& where) {
   if (extreme.any && !(value < extreme.value)) return;
-  extreme = {value, true, where, extreme.violations};
+  extreme = {value, true, where(), extreme.violations};
+}
+
+void append_largest(Extreme& extreme, const Extreme& later) {
+  if (later.any) keep_largest(extreme, later.value, [&] { return later.where; });
+  extreme.violations += later.violations;
+}
+
+void append_smallest(Extreme& extreme, const Extreme& later) {
+  if (later.any) keep_smallest(extreme, later.value, [&] { return later.where; });
+  extreme.violations += later.violations;
 }
 
 struct TriangleShape {
@@ -179,15 +214,32 @@ double dihedral_tolerance_degrees(const std::array<Point3, 4>& p, Precision prec
   return 4 * precision.displacement_mm / altitude * kDegrees;
 }
 
-Point3 centroid(const std::array<Point3, 4>& p) { return 0.25 * ((p[0] + p[1]) + (p[2] + p[3])); }
+struct TetMeasures {
+  explicit TetMeasures(double scale) : ratios(0.6, 2.6, 40), edges(0, 3 * scale, 30) {}
+  TetQuality quality;
+  CosineSpread dihedrals;
+  double largest_cosine = -2;
+  Spread ratios, edges;
+
+  void append(const TetMeasures& later) {
+    quality.not_positive.append(later.quality.not_positive);
+    append_largest(quality.radius_edge, later.quality.radius_edge);
+    append_largest(quality.circumradius, later.quality.circumradius);
+    append_smallest(quality.dihedral, later.quality.dihedral);
+    quality.volume_mm3 += later.quality.volume_mm3;
+    dihedrals.append(later.dihedrals);
+    ratios.append(later.ratios);
+    edges.append(later.edges);
+  }
+};
 
 void hold_to_bounds(const std::array<Point3, 4>& p, const TetShape& s, double largest_cosine, const Promises& bounds,
                     Precision precision, TetQuality& result) {
   constexpr double kSlack = 1 + kRelativeTolerance;
   const double ratio = s.circumradius / s.shortest;
   if (bounds.radius_edge && !(ratio <= *bounds.radius_edge * kSlack)) {
-    const double move = circumradius_tolerance(p, s, precision) / s.shortest +
-                        ratio * 2 * precision.displacement_mm / s.shortest;
+    const double move =
+        circumradius_tolerance(p, s, precision) / s.shortest + ratio * 2 * precision.displacement_mm / s.shortest;
     if (!(ratio <= *bounds.radius_edge * kSlack + move)) ++result.radius_edge.violations;
   }
   if (bounds.cell_size && !(s.circumradius <= *bounds.cell_size * kSlack)) {
@@ -195,7 +247,7 @@ void hold_to_bounds(const std::array<Point3, 4>& p, const TetShape& s, double la
     if (!(s.circumradius <= *bounds.cell_size * kSlack + move)) ++result.circumradius.violations;
   }
   if (bounds.min_dihedral_degrees) {
-    const double dihedral = std::acos(std::clamp(largest_cosine, -1.0, 1.0)) * kDegrees;
+    const double dihedral = degrees_of_cosine(largest_cosine);
     if (!(dihedral * kSlack >= *bounds.min_dihedral_degrees) &&
         !(dihedral * kSlack >= *bounds.min_dihedral_degrees - dihedral_tolerance_degrees(p, precision))) {
       ++result.dihedral.violations;
@@ -203,15 +255,118 @@ void hold_to_bounds(const std::array<Point3, 4>& p, const TetShape& s, double la
   }
 }
 
-double median_scale(const std::vector<Point3>& points, std::span<const Tet> tets) {
-  // Edge bins need a scale before the edges are known: the mean over a sample is good enough for bins.
+// The volume as computed is off by less than 8 epsilon times six products of three edge components (Shewchuk); what
+// this cannot settle goes to the exact predicate.
+bool is_positive(const std::array<Point3, 4>& p, const TetShape& s) {
+  constexpr double kRounding = 1e-14, kUnderflowGuard = 1e-250;
+  const double error = kRounding * s.longest * s.longest * s.longest;
+  if (s.six_volumes > error && error > kUnderflowGuard) return true;
+  return orientation(p[0], p[1], p[2], p[3]) > 0;
+}
+
+void measure_tet(const std::array<Point3, 4>& p, const Promises& bounds, Precision precision, const AngleBins& bin_of,
+                 TetMeasures& measures) {
+  TetQuality& quality = measures.quality;
+  TetShape s = shape_of(p[0], p[1], p[2], p[3]);
+  const auto where = [&p] { return 0.25 * ((p[0] + p[1]) + (p[2] + p[3])); };
+  if (!is_positive(p, s)) quality.not_positive.add(where());
+  quality.volume_mm3 += s.six_volumes / 6;
+  measures.edges.add(s.shortest);
+  measures.edges.add(s.longest);
+  // A flat tet has no finite radius and no angles; "positive tets" names it, here it counts as infinitely bad.
+  const bool flat = !std::isfinite(s.circumradius) || s.six_volumes == 0;
+  if (flat) s.circumradius = std::numeric_limits<double>::infinity();
+  double largest_cosine = flat ? 1 : -1;
+  for (double cosine : s.cosine) {
+    if (!std::isfinite(cosine)) continue;
+    largest_cosine = std::max(largest_cosine, cosine);
+    measures.dihedrals.add(bin_of, cosine);
+  }
+  const double ratio = s.circumradius / s.shortest;
+  measures.ratios.add(std::isfinite(ratio) ? ratio : std::numeric_limits<double>::max());
+  keep_largest(quality.radius_edge, ratio, where);
+  keep_largest(quality.circumradius, s.circumradius, where);
+  if (largest_cosine > measures.largest_cosine) {
+    measures.largest_cosine = largest_cosine;
+    keep_smallest(quality.dihedral, degrees_of_cosine(largest_cosine), where);
+  }
+  hold_to_bounds(p, s, largest_cosine, bounds, precision, quality);
+}
+
+// Edge bins need a scale before the edges are known: the mean over a sample is good enough for bins.
+template <class Cell>
+double typical_edge(const std::vector<Point3>& points, std::span<const Cell> cells) {
   double sum = 0;
   std::size_t count = 0;
-  for (std::size_t t = 0; t < tets.size(); t += 1 + tets.size() / 1000) {
-    sum += distance(points[tets[t][0]], points[tets[t][1]]) + distance(points[tets[t][2]], points[tets[t][3]]);
+  for (std::size_t i = 0; i < cells.size(); i += 1 + cells.size() / 1000) {
+    const Cell& cell = cells[i];
+    sum += distance(points[cell[0]], points[cell[1]]) + distance(points[cell[1]], points[cell[2]]);
     count += 2;
   }
-  return count > 0 && sum > 0 ? sum / static_cast<double>(count) : 1;
+  return sum > 0 ? sum / static_cast<double>(count) : 1;
+}
+
+struct TriangleMeasures {
+  explicit TriangleMeasures(double scale) : edges(0, 3 * scale, 30) {}
+  TriangleQuality quality;
+  CosineSpread angles;
+  Spread edges;
+
+  void append(const TriangleMeasures& later) {
+    append_smallest(quality.angle, later.quality.angle);
+    append_largest(quality.circumradius, later.quality.circumradius);
+    quality.degenerate.append(later.quality.degenerate);
+    angles.append(later.angles);
+    edges.append(later.edges);
+  }
+};
+
+void measure_triangle(const std::array<Point3, 3>& p, const Promises& bounds, Precision precision,
+                      const AngleBins& bin_of, TriangleMeasures& measures) {
+  constexpr double kFlat = 1e-14;  // altitude over longest edge below which double holds no area
+  constexpr double kSlack = 1 + kRelativeTolerance;
+  TriangleQuality& quality = measures.quality;
+  const TriangleShape s = shape_of(p[0], p[1], p[2]);
+  const auto where = [&p] { return (1.0 / 3) * (p[0] + p[1] + p[2]); };
+  const double longest = *std::max_element(s.length, s.length + 3);
+  for (double length : s.length) measures.edges.add(length);
+  if (!(s.double_area > longest * std::max(kFlat * longest, precision.displacement_mm))) {
+    quality.degenerate.add(where());
+    keep_smallest(quality.angle, 0, where);
+    if (bounds.min_angle_degrees) ++quality.angle.violations;
+    return;
+  }
+  for (double cosine : s.cosine) measures.angles.add(bin_of, cosine);
+  const double angle = degrees_of_cosine(*std::max_element(s.cosine, s.cosine + 3));
+  keep_smallest(quality.angle, angle, where);
+  keep_largest(quality.circumradius, s.circumradius, where);
+  if (bounds.min_angle_degrees &&
+      !(angle * kSlack + angle_tolerance_degrees(s, precision) >= *bounds.min_angle_degrees)) {
+    ++quality.angle.violations;
+  }
+  if (bounds.size && !(s.circumradius <= *bounds.size * kSlack + circumradius_tolerance(s, precision))) {
+    ++quality.circumradius.violations;
+  }
+}
+
+// Measures cells in chunks, and puts the chunks together in order.
+template <class Measures, class Cell, class MeasureCell>
+Measures measure_all(const std::vector<Point3>& points, std::span<const Cell> cells, const MeasureCell& measure) {
+  constexpr std::size_t kAhead = 16;  // points lie anywhere: fetched ahead, a quarter of the time is saved
+  const double scale = typical_edge(points, cells);
+  const auto parts = map_chunks(cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    auto part = std::make_unique<Measures>(scale);
+    for (std::size_t i = begin; i < end; ++i) {
+      for (std::uint32_t v : cells[std::min(i + kAhead, end - 1)]) __builtin_prefetch(&points[v]);
+      std::array<Point3, std::tuple_size_v<Cell>> corners;
+      for (std::size_t c = 0; c < corners.size(); ++c) corners[c] = points[cells[i][c]];
+      measure(corners, *part);
+    }
+    return part;
+  });
+  Measures all(scale);
+  for (const auto& part : parts) all.append(*part);
+  return all;
 }
 
 }  // namespace
@@ -224,83 +379,28 @@ Point3 circumcenter(const Point3& a, const Point3& b, const Point3& c) {
 
 TriangleQuality measure_triangles(const std::vector<Point3>& points, std::span<const Triangle> triangles,
                                   const Promises& bounds, Precision precision) {
-  constexpr double kFlat = 1e-14;  // altitude over longest edge below which double holds no area
   const AngleBins bin_of;
-  TriangleQuality result;
-  CosineDistribution angles;
-  double scale = 0;
-  for (const Triangle& t : triangles) scale += distance(points[t[0]], points[t[1]]);
-  scale = scale > 0 ? scale / static_cast<double>(triangles.size()) : 1;
-  result.edges = make_distribution(0, 3 * scale, 30);
-  for (const Triangle& t : triangles) {
-    const Point3 &a = points[t[0]], &b = points[t[1]], &c = points[t[2]];
-    const TriangleShape s = shape_of(a, b, c);
-    const Point3 where = (1.0 / 3) * (a + b + c);
-    const double longest = *std::max_element(s.length, s.length + 3);
-    for (double length : s.length) add(result.edges, length);
-    if (!(s.double_area > longest * std::max(kFlat * longest, precision.displacement_mm))) {
-      if (result.degenerate++ == 0) result.degenerate_where = where;
-      keep_smallest(result.angle, 0, where);
-      if (bounds.min_angle_degrees) ++result.angle.violations;
-      continue;
-    }
-    for (double cosine : s.cosine) angles.add(bin_of, cosine);
-    const double largest_cosine = *std::max_element(s.cosine, s.cosine + 3);
-    const double angle = std::acos(std::clamp(largest_cosine, -1.0, 1.0)) * kDegrees;
-    keep_smallest(result.angle, angle, where);
-    keep_largest(result.circumradius, s.circumradius, where);
-    if (bounds.min_angle_degrees && !(angle * (1 + kRelativeTolerance) + angle_tolerance_degrees(s, precision) >=
-                                      *bounds.min_angle_degrees)) {
-      ++result.angle.violations;
-    }
-    if (bounds.size &&
-        !(s.circumradius <= *bounds.size * (1 + kRelativeTolerance) + circumradius_tolerance(s, precision))) {
-      ++result.circumradius.violations;
-    }
-  }
-  result.angles = angles.degrees();
-  finish(result.edges);
+  const auto all = measure_all<TriangleMeasures>(points, triangles,
+                                                 [&](const std::array<Point3, 3>& corners, TriangleMeasures& measures) {
+                                                   measure_triangle(corners, bounds, precision, bin_of, measures);
+                                                 });
+  TriangleQuality result = all.quality;
+  result.angles = all.angles.degrees();
+  result.edges = all.edges.distribution();
   return result;
 }
 
 TetQuality measure_tets(const std::vector<Point3>& points, std::span<const Tet> tets, const Promises& bounds,
                         Precision precision) {
   const AngleBins bin_of;
-  TetQuality result;
-  CosineDistribution dihedrals;
-  double largest_cosine_of_all = -2;
-  result.ratios = make_distribution(0.6, 2.6, 40);
-  result.edges = make_distribution(0, 3 * median_scale(points, tets), 30);
-  for (const Tet& t : tets) {
-    const std::array<Point3, 4> p{points[t[0]], points[t[1]], points[t[2]], points[t[3]]};
-    const TetShape s = shape_of(p[0], p[1], p[2], p[3]);
-    result.volume_mm3 += s.six_volumes / 6;
-    add(result.edges, s.shortest);
-    add(result.edges, s.longest);
-    // A flat tet has no finite radius and no angles; "positive tets" names it, here it counts as infinitely bad.
-    const bool flat = !std::isfinite(s.circumradius) || s.six_volumes == 0;
-    double largest_cosine = flat ? 1 : -1;
-    for (double cosine : s.cosine) {
-      if (!std::isfinite(cosine)) continue;
-      largest_cosine = std::max(largest_cosine, cosine);
-      dihedrals.add(bin_of, cosine);
-    }
-    const double radius = flat ? std::numeric_limits<double>::infinity() : s.circumradius;
-    const double ratio = radius / s.shortest;
-    add(result.ratios, std::isfinite(ratio) ? ratio : std::numeric_limits<double>::max());
-    keep_largest(result.radius_edge, ratio, centroid(p));
-    keep_largest(result.circumradius, radius, centroid(p));
-    if (largest_cosine > largest_cosine_of_all) {
-      largest_cosine_of_all = largest_cosine;
-      keep_smallest(result.dihedral, std::acos(std::clamp(largest_cosine, -1.0, 1.0)) * kDegrees, centroid(p));
-    }
-    TetShape judged = s;
-    judged.circumradius = radius;
-    hold_to_bounds(p, judged, largest_cosine, bounds, precision, result);
-  }
-  result.dihedrals = dihedrals.degrees();
-  finish(result.ratios);
-  finish(result.edges);
+  const auto all =
+      measure_all<TetMeasures>(points, tets, [&](const std::array<Point3, 4>& corners, TetMeasures& measures) {
+        measure_tet(corners, bounds, precision, bin_of, measures);
+      });
+  TetQuality result = all.quality;
+  result.dihedrals = all.dihedrals.degrees();
+  result.ratios = all.ratios.distribution();
+  result.edges = all.edges.distribution();
   return result;
 }
 

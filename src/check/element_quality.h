@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "check/surface_topology.h"
 #include "delvox/check/check_mesh.h"
 
 namespace delvox::check {
@@ -12,7 +13,7 @@ struct Precision {
   double displacement_mm = 0;
 };
 
-/// The worst value of a quantity and the elements that break its bound beyond tolerance.
+/// The worst value of a quantity, the first place that has it, and the elements that break its bound beyond tolerance.
 struct Extreme {
   double value = 0;
   bool any = false;
@@ -26,14 +27,14 @@ Point3 circumcenter(const Point3& a, const Point3& b, const Point3& c);
 struct TriangleQuality {
   Extreme angle;         ///< smallest, degrees
   Extreme circumradius;  ///< largest
-  std::size_t degenerate = 0;  ///< no area at the format's precision
-  Point3 degenerate_where;
+  Tally degenerate;      ///< no area at the format's precision
   Distribution angles, edges;
 };
 TriangleQuality measure_triangles(const std::vector<Point3>& points, std::span<const Triangle> triangles,
                                   const Promises& bounds, Precision precision);
 
 struct TetQuality {
+  Tally not_positive;    ///< by exact predicates on the coordinates as they are
   Extreme radius_edge;   ///< largest
   Extreme circumradius;  ///< largest
   Extreme dihedral;      ///< smallest, degrees

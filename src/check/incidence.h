@@ -1,12 +1,17 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "core/parallel.h"
 #include "delvox/core/mesh.h"
 
 namespace delvox::check {
@@ -26,10 +31,11 @@ inline SimplexKey edge_key(std::uint32_t a, std::uint32_t b) {
 inline SimplexKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   bool flipped = false;
   const auto order = [&flipped](std::uint32_t& low, std::uint32_t& high) {
-    if (high < low) {
-      std::swap(low, high);
-      flipped = !flipped;
-    }
+    const bool swap = high < low;
+    const std::uint32_t smaller = swap ? high : low;  // random order: better no branch
+    high = swap ? low : high;
+    low = smaller;
+    flipped ^= swap;
   };
   order(a, b);
   order(b, c);
@@ -37,72 +43,176 @@ inline SimplexKey face_key(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
   return {a, static_cast<std::uint64_t>(b) << 32 | c, flipped};
 }
 
+/// Of a whole triangle, as the one simplex of a cell.
+inline constexpr auto triangle_key = [](const Triangle& t, int) { return face_key(t[0], t[1], t[2]); };
+
 /// One of the items that share a simplex.
 struct Incidence {
-  std::uint64_t rest;
   std::uint32_t item_and_parity;
   std::uint32_t item() const { return item_and_parity >> 1; }
   bool flipped() const { return (item_and_parity & 1) != 0; }
 };
 
-/// Calls visit(span<const Incidence>) once for each distinct simplex among key_of(0) .. key_of(item_count - 1), items
-/// ascending. Buckets by smallest vertex instead of one big sort, in passes that keep the scratch memory near 32 MB:
-/// it runs while the mesher's memory is still held. pre: item_count < 2^31.
-template <class KeyOf, class Visit>
-void for_each_shared_simplex(std::size_t point_count, std::size_t item_count, const KeyOf& key_of, const Visit& visit) {
-  constexpr std::size_t kPassSize = std::size_t{1} << 21;
-  std::vector<std::uint32_t> bucket_size(point_count, 0);
-  for (std::size_t item = 0; item < item_count; ++item) ++bucket_size[key_of(item).first];
-  std::vector<Incidence> entries;
-  std::vector<std::uint32_t> bucket_end;
-  for (std::size_t begin = 0; begin < point_count;) {
-    std::size_t end = begin, total = 0;
-    bucket_end.clear();
-    while (end < point_count && (end == begin || total + bucket_size[end] <= kPassSize)) {
-      bucket_end.push_back(static_cast<std::uint32_t>(total));
-      total += bucket_size[end++];
-    }
-    entries.resize(total);
-    for (std::size_t item = 0; item < item_count; ++item) {
-      const SimplexKey key = key_of(item);
-      if (key.first < begin || key.first >= end) continue;
-      const auto item_and_parity = static_cast<std::uint32_t>(item << 1 | (key.flipped ? 1 : 0));
-      entries[bucket_end[key.first - begin]++] = {key.rest, item_and_parity};
-    }
-    auto bucket = entries.begin();
-    for (std::uint32_t bucket_stop : bucket_end) {
-      const auto stop = entries.begin() + bucket_stop;
-      std::sort(bucket, stop, [](const Incidence& a, const Incidence& b) {
-        return a.rest != b.rest ? a.rest < b.rest : a.item_and_parity < b.item_and_parity;
-      });
-      while (bucket != stop) {
-        auto group_end = bucket + 1;
-        while (group_end != stop && group_end->rest == bucket->rest) ++group_end;
-        visit(std::span<const Incidence>(bucket, group_end));
-        bucket = group_end;
-      }
-    }
-    begin = end;
+/// The simplices of cells: item i is simplex i % kPerCell of cell i / kPerCell.
+template <std::size_t kPerCell, class Cell, class KeyOf>
+struct SimplexItems {
+  std::span<const Cell> cells;
+  KeyOf key_of;  ///< SimplexKey of (cell, number of the simplex)
+  std::size_t size() const { return kPerCell * cells.size(); }
+  SimplexKey operator[](std::size_t item) const {
+    return key_of(cells[item / kPerCell], static_cast<int>(item % kPerCell));
   }
+  void prefetch(std::size_t item) const { __builtin_prefetch(&cells[item / kPerCell]); }
+};
+
+/// Items by the smallest vertex of their simplex, ascending: a stable counting sort, so the same for any number of
+/// threads. Four bytes per item and up to twenty per point: it runs while the mesher's memory may still be held.
+class SimplexBuckets {
+ public:
+  template <class Items>
+  SimplexBuckets(std::size_t point_count, const Items& items)
+      : begin_(point_count + 1), items_(std::make_unique_for_overwrite<std::uint32_t[]>(items.size())) {
+    constexpr std::size_t kMostBlocks = 4;  // each counts for itself
+    const std::size_t block = std::max(items.size() / kMostBlocks + 1, 2 * point_count);
+    auto next = map_chunks(items.size(), block, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t> sizes(point_count, 0);
+      for (std::size_t item = begin; item < end; ++item) ++sizes[items[item].first];
+      return sizes;
+    });
+    std::uint32_t total = 0;
+    for (std::size_t point = 0; point < point_count; ++point) {
+      begin_[point] = total;
+      for (auto& of_block : next) total += std::exchange(of_block[point], total);
+    }
+    begin_[point_count] = total;
+    for_each_chunk(items.size(), block, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::uint32_t>& at = next[begin / block];
+      for (std::size_t item = begin; item < end; ++item) {
+        items_[at[items[item].first]++] = static_cast<std::uint32_t>(item);
+      }
+    });
+  }
+  /// Where the bucket of `point` begins and that of the point before ends.
+  const std::uint32_t* begin_of(std::size_t point) const { return items_.get() + begin_[point]; }
+  const std::uint32_t* end() const { return items_.get() + begin_.back(); }
+
+ private:
+  std::vector<std::uint32_t> begin_;
+  std::unique_ptr<std::uint32_t[]> items_;
+};
+
+/// The items of one bucket grouped by their simplex, by a hash table that stays in the nearest cache.
+class SimplexGroups {
+ public:
+  /// Empties it, for up to `most` items.
+  void restart(std::size_t most) {
+    const std::size_t size = std::bit_ceil(2 * most + 2);
+    shift_ = 64 - std::countr_zero(size);
+    slots_.assign(size, 0);
+    groups_.clear();
+    entries_.clear();
+  }
+  void add(std::uint64_t rest, std::uint32_t item, bool flipped) {
+    const auto entry = static_cast<std::uint32_t>(entries_.size());
+    entries_.push_back({{item << 1 | (flipped ? 1u : 0u)}, kEnd});
+    std::size_t slot = rest * 0x9E3779B97F4A7C15ull >> shift_;
+    while (slots_[slot] != 0 && groups_[slots_[slot] - 1].rest != rest) slot = (slot + 1) & (slots_.size() - 1);
+    if (slots_[slot] == 0) {
+      groups_.push_back({rest, entry, entry});
+      slots_[slot] = static_cast<std::uint32_t>(groups_.size());
+    } else {
+      Group& group = groups_[slots_[slot] - 1];
+      entries_[group.last].next = entry;
+      group.last = entry;
+    }
+  }
+  /// visit(span<const Incidence>) for each simplex in the order of its first item, items in the order they came.
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    for (const Group& group : groups_) {
+      sharing_.clear();
+      for (std::uint32_t e = group.first; e != kEnd; e = entries_[e].next) sharing_.push_back(entries_[e].incidence);
+      visit(std::span<const Incidence>(sharing_));
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kEnd = ~std::uint32_t{0};
+  struct Group {
+    std::uint64_t rest;
+    std::uint32_t first, last;  // entries
+  };
+  struct Entry {
+    Incidence incidence;
+    std::uint32_t next;
+  };
+  int shift_ = 0;
+  std::vector<std::uint32_t> slots_;  // 0, or 1 + a group
+  std::vector<Group> groups_;
+  std::vector<Entry> entries_;
+  std::vector<Incidence> sharing_;
+};
+
+/// Calls visit(span<const Incidence>, Result&) once for each distinct simplex, items ascending, in parallel; returns
+/// the results of fixed ranges of vertices, in order. prefetch(item) is called some time before the visit, for what it
+/// will need. pre: fewer than 2^31 items.
+template <class Result, std::size_t kPerCell, class Cell, class KeyOf, class Visit, class Prefetch>
+std::vector<Result> map_shared_simplices(std::size_t point_count, std::span<const Cell> cells, const KeyOf& key_of,
+                                         const Visit& visit, const Prefetch& prefetch) {
+  constexpr std::size_t kChunk = 4096;
+  constexpr std::ptrdiff_t kAhead = 32;  // cells lie anywhere: without fetching ahead most of the time goes waiting
+  const SimplexItems<kPerCell, Cell, KeyOf> items{cells, key_of};
+  const SimplexBuckets buckets(point_count, items);
+  return map_chunks(point_count, kChunk, [&](std::size_t begin, std::size_t end) {
+    Result result;
+    SimplexGroups groups;
+    for (std::size_t point = begin; point < end; ++point) {
+      const std::uint32_t *first = buckets.begin_of(point), *last = buckets.begin_of(point + 1);
+      if (first == last) continue;
+      groups.restart(static_cast<std::size_t>(last - first));
+      for (const std::uint32_t* item = first; item != last; ++item) {
+        if (buckets.end() - item > kAhead) items.prefetch(item[kAhead]);
+        prefetch(*item);
+        const SimplexKey key = items[*item];
+        groups.add(key.rest, *item, key.flipped);
+      }
+      groups.for_each([&](std::span<const Incidence> sharing) { visit(sharing, result); });
+    }
+    return result;
+  });
 }
 
-/// Sets of items that were found to be joined, with path halving. The smaller root wins, so results do not depend on
-/// anything but the items.
+template <class Result, std::size_t kPerCell, class Cell, class KeyOf, class Visit>
+std::vector<Result> map_shared_simplices(std::size_t point_count, std::span<const Cell> cells, const KeyOf& key_of,
+                                         const Visit& visit) {
+  return map_shared_simplices<Result, kPerCell>(point_count, cells, key_of, visit, [](std::uint32_t) {});
+}
+
+/// Sets of items that were found to be joined, with path halving. The smaller root wins, so the roots depend on nothing
+/// but the sets, and threads may join at the same time (Anderson, Woll, Wait-free parallel algorithms for the
+/// union-find problem, 1991).
 class UnionFind {
  public:
-  explicit UnionFind(std::size_t count) : parent_(count) {
-    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);
-  }
+  explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
   std::uint32_t root(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
+    while (true) {
+      const std::uint32_t parent = load(i), grandparent = load(parent);
+      if (parent == grandparent) return parent;
+      at(i).store(grandparent, std::memory_order_relaxed);  // not a root, and never again
+      i = grandparent;
+    }
   }
   void join(std::uint32_t a, std::uint32_t b) {
-    a = root(a);
-    b = root(b);
-    if (a < b) parent_[b] = a;
-    else parent_[a] = b;
+    while (true) {
+      a = root(a);
+      b = root(b);
+      if (a == b) return;
+      if (a < b) std::swap(a, b);
+      std::uint32_t expected = a;  // still a root?
+      if (at(a).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
+    }
   }
+  void prefetch(std::uint32_t i) const { __builtin_prefetch(&parent_[i]); }
   std::size_t set_count() const {
     std::size_t count = 0;
     for (std::size_t i = 0; i < parent_.size(); ++i) count += parent_[i] == i ? 1 : 0;
@@ -110,6 +220,8 @@ class UnionFind {
   }
 
  private:
+  std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref<std::uint32_t>(parent_[i]); }
+  std::uint32_t load(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
   std::vector<std::uint32_t> parent_;
 };
 

@@ -14,35 +14,57 @@ namespace {
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
 // A directed edge is numbered 3 * triangle + its place; so is the corner that it starts from.
-std::uint32_t next_corner(std::uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+std::uint32_t next_corner(std::uint32_t corner) {
+  return corner % 3 == 2 ? corner - 2 : corner + 1;
+}
 
 std::uint32_t vertex_at(std::span<const Triangle> triangles, std::uint32_t corner) {
   return triangles[corner / 3][corner % 3];
 }
 
-struct EdgeJoins {
+struct Joins {
   UnionFind triangles;  // joined across edges: components
   UnionFind corners;    // joined around a vertex: fans
-  std::vector<std::uint32_t> edge_owner;  // one triangle of each edge
 };
 
-void visit_edge(const std::vector<Point3>& points, std::span<const Triangle> triangles,
-                std::span<const Incidence> edge, EdgeJoins& joins, SurfaceTopology& result) {
+struct Edges {
+  std::vector<std::uint32_t> owners;  // one triangle of each edge
+  std::vector<std::array<std::uint32_t, 2>> rim;
+  Tally crowded, misoriented;
+};
+
+void visit_edge(const std::vector<Point3>& points, std::span<const Triangle> triangles, std::span<const Incidence> edge,
+                Joins& joins, Edges& edges) {
   const auto corner_of_smaller = [](const Incidence& e) { return e.flipped() ? next_corner(e.item()) : e.item(); };
   const auto corner_of_larger = [](const Incidence& e) { return e.flipped() ? e.item() : next_corner(e.item()); };
   const std::uint32_t a = vertex_at(triangles, edge[0].item());
   const std::uint32_t b = vertex_at(triangles, next_corner(edge[0].item()));
-  joins.edge_owner.push_back(edge[0].item() / 3);
-  if (edge.size() == 1) result.rim.push_back({a, b});
-  if (edge.size() > 2) result.crowded_edges.add(midpoint(points[a], points[b]));
+  edges.owners.push_back(edge[0].item() / 3);
+  if (edge.size() == 1) edges.rim.push_back({a, b});
+  if (edge.size() > 2) edges.crowded.add(midpoint(points[a], points[b]));
   if (edge.size() == 2 && edge[0].flipped() == edge[1].flipped()) {
-    result.misoriented_edges.add(midpoint(points[a], points[b]));
+    edges.misoriented.add(midpoint(points[a], points[b]));
   }
   for (std::size_t i = 1; i < edge.size(); ++i) {
     joins.triangles.join(edge[0].item() / 3, edge[i].item() / 3);
     joins.corners.join(corner_of_smaller(edge[0]), corner_of_smaller(edge[i]));
     joins.corners.join(corner_of_larger(edge[0]), corner_of_larger(edge[i]));
   }
+}
+
+// All edges, and in `joins` what they hold together.
+Edges find_edges(const std::vector<Point3>& points, std::span<const Triangle> triangles, Joins& joins) {
+  const auto parts = map_shared_simplices<Edges, 3>(
+      points.size(), triangles, [](const Triangle& t, int i) { return edge_key(t[i], t[i == 2 ? 0 : i + 1]); },
+      [&](std::span<const Incidence> edge, Edges& edges) { visit_edge(points, triangles, edge, joins, edges); });
+  Edges all;
+  for (const Edges& part : parts) {
+    all.owners.insert(all.owners.end(), part.owners.begin(), part.owners.end());
+    all.rim.insert(all.rim.end(), part.rim.begin(), part.rim.end());
+    all.crowded.append(part.crowded);
+    all.misoriented.append(part.misoriented);
+  }
+  return all;
 }
 
 void count_vertices(const std::vector<Point3>& points, std::span<const Triangle> triangles, UnionFind& corners,
@@ -61,21 +83,17 @@ void count_vertices(const std::vector<Point3>& points, std::span<const Triangle>
   }
 }
 
-void find_duplicate_triangles(const std::vector<Point3>& points, std::span<const Triangle> triangles,
-                              SurfaceTopology& result) {
-  for_each_shared_simplex(
-      points.size(), triangles.size(),
-      [&](std::size_t i) { return face_key(triangles[i][0], triangles[i][1], triangles[i][2]); },
-      [&](std::span<const Incidence> same) {
-        for (std::size_t i = 1; i < same.size(); ++i) {
-          result.duplicate_triangles.add(points[triangles[same[i].item()][0]]);
-        }
-      });
+Tally duplicate_triangles(const std::vector<Point3>& points, std::span<const Triangle> triangles) {
+  return sum_of(map_shared_simplices<Tally, 1>(points.size(), triangles, triangle_key,
+                                               [&](std::span<const Incidence> same, Tally& duplicates) {
+                                                 for (std::size_t i = 1; i < same.size(); ++i)
+                                                   duplicates.add(points[triangles[same[i].item()][0]]);
+                                               }));
 }
 
 // Fans, not vertices, are counted per component, so a component keeps its own genus where it touches another.
-void measure_components(const std::vector<Point3>& points, std::span<const Triangle> triangles, EdgeJoins& joins,
-                        SurfaceTopology& result) {
+void measure_components(const std::vector<Point3>& points, std::span<const Triangle> triangles, Joins& joins,
+                        std::span<const std::uint32_t> edge_owners, SurfaceTopology& result) {
   std::vector<std::uint32_t> number(triangles.size(), kNone);
   Box3 box;
   for (const Triangle& t : triangles) {
@@ -99,7 +117,7 @@ void measure_components(const std::vector<Point3>& points, std::span<const Trian
     component.volume_mm3 += dot(a, cross(b, c)) / 6;
     component.area_mm2 += norm(cross(b - a, c - a)) / 2;
   }
-  for (std::uint32_t owner : joins.edge_owner) --components[result.component_of[owner]].euler;
+  for (std::uint32_t owner : edge_owners) --components[result.component_of[owner]].euler;
   for (std::uint32_t corner = 0; corner < 3 * triangles.size(); ++corner) {
     if (joins.corners.root(corner) == corner) ++components[result.component_of[corner / 3]].euler;
   }
@@ -195,20 +213,17 @@ class ShadowGrid {
 
 SurfaceTopology surface_topology(const std::vector<Point3>& points, std::span<const Triangle> triangles) {
   SurfaceTopology result;
-  EdgeJoins joins{UnionFind(triangles.size()), UnionFind(3 * triangles.size()), {}};
-  for_each_shared_simplex(
-      points.size(), 3 * triangles.size(),
-      [&](std::size_t edge) {
-        const auto corner = static_cast<std::uint32_t>(edge);
-        return edge_key(vertex_at(triangles, corner), vertex_at(triangles, next_corner(corner)));
-      },
-      [&](std::span<const Incidence> edge) { visit_edge(points, triangles, edge, joins, result); });
-  result.edges = joins.edge_owner.size();
+  Joins joins{UnionFind(triangles.size()), UnionFind(3 * triangles.size())};
+  Edges edges = find_edges(points, triangles, joins);
+  result.edges = edges.owners.size();
+  result.rim = std::move(edges.rim);
+  result.crowded_edges = edges.crowded;
+  result.misoriented_edges = edges.misoriented;
   count_vertices(points, triangles, joins.corners, result);
-  result.euler = static_cast<long>(result.vertices) - static_cast<long>(result.edges) +
-                 static_cast<long>(triangles.size());
-  find_duplicate_triangles(points, triangles, result);
-  measure_components(points, triangles, joins, result);
+  result.euler =
+      static_cast<long>(result.vertices) - static_cast<long>(result.edges) + static_cast<long>(triangles.size());
+  result.duplicate_triangles = duplicate_triangles(points, triangles);
+  measure_components(points, triangles, joins, edges.owners, result);
   sort_components(result);
   return result;
 }

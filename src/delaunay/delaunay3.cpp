@@ -1,128 +1,260 @@
 #include "delaunay/delaunay3.h"
 
-namespace delvox {
+#include <algorithm>
+#include <cmath>
 
-Delaunay3::Delaunay3(const Box3& bounds) {
-  triangulation_.infinite_vertex()->info() = kNone;
+#include "delaunay/hole_filling.h"
+#include "delaunay/predicates.h"
+#include "delvox/core/mesh.h"
+
+namespace delvox {
+namespace {
+
+constexpr VertexId kCorners = 4;
+
+}  // namespace
+
+Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds) {
   const Point3 c = bounds.center();
   // Far enough that no circumcentre of a cell with a corner can lie in `bounds`; odd factors keep the corners off the
   // planes and spheres of the data.
   const double far = 7.31 * bounds.diagonal();
-  for (const Point3& corner : {Point3{1.01, 1.02, 1.03}, Point3{1.04, -1.05, -1.06}, Point3{-1.07, 1.08, -1.09},
+  for (const Point3& corner : {Point3{1.01, 1.02, 1.03}, Point3{-1.07, 1.08, -1.09}, Point3{1.04, -1.05, -1.06},
                                Point3{-1.1, -1.11, 1.12}}) {
-    insert_unnamed(c + far * corner);
+    vertices_.push_back({c + far * corner, kOutside});
   }
-  name_all_cells();
+  // Below this radius the rounding of a circumcentre, which grows with its coordinates, is no longer far below the
+  // filter's margin.
+  const double smallest_trusted = std::max(1e-6 * bounds.diagonal(), 1e-8 * (norm(bounds.min) + norm(bounds.max)));
+  trusted_squared_radius_ = smallest_trusted * smallest_trusted;
+  // The determinant is a sum of six products of three differences, none larger than the box: some 50 roundings in all.
+  const Vector3 extent = bounds.max - bounds.min;
+  orientation_error_ = 1e-14 * extent.x * extent.y * extent.z;
+  make_first_cell();
 }
 
-VertexId Delaunay3::name_vertex(Triangulation::Vertex_handle handle) {
-  VertexId id;
-  if (free_vertices_.empty()) {
-    id = static_cast<VertexId>(vertices_.size());
-    vertices_.push_back(handle);
-  } else {
-    id = free_vertices_.back();
-    free_vertices_.pop_back();
-    vertices_[id] = handle;
-  }
-  handle->info() = id;
-  return id;
-}
+Delaunay3::~Delaunay3() = default;
 
-CellId Delaunay3::name_cell(Triangulation::Cell_handle handle) {
-  CellId id;
-  if (free_cells_.empty()) {
-    id = static_cast<CellId>(cells_.size());
-    cells_.push_back(handle);
-    links_.emplace_back();
-  } else {
-    id = free_cells_.back();
-    free_cells_.pop_back();
-    cells_[id] = handle;
-  }
-  handle->info() = id;
-  return id;
-}
-
-void Delaunay3::copy_links(CellId cell) {
-  const auto& handle = cells_[cell];
-  for (int i = 0; i < 4; ++i) {
-    links_[cell].vertices[i] = handle->vertex(i)->info();
-    links_[cell].neighbors[i] = handle->neighbor(i)->info();
-  }
-}
-
-void Delaunay3::name_all_cells() {
-  cells_.clear();
+void Delaunay3::clear() {
+  vertices_.resize(kCorners);
+  free_vertices_.clear();
   free_cells_.clear();
-  const auto& structure = triangulation_.tds();
-  cells_.reserve(structure.number_of_cells());
-  for (auto cell = structure.cells_begin(); cell != structure.cells_end(); ++cell) {
-    cell->info() = static_cast<CellId>(cells_.size());
-    cells_.push_back(cell);
-  }
-  links_.resize(cells_.size());
-  for (CellId cell = 0; cell < cells_.size(); ++cell) copy_links(cell);
+  cells_.clear();
+  marks_.clear();
+  make_first_cell();
 }
 
+void Delaunay3::make_first_cell() {
+  cells_.grow_to(1);
+  marks_.grow_to(1);
+  cells_[kOutside] = {{kNone, kNone, kNone, kNone}, {kOutside, kOutside, kOutside, kOutside}, {{}, -1}};
+  marks_[kOutside] = {next_stamp_++, 0};
+  const CellId first = new_cell();
+  const auto p = [this](VertexId v) { return point(v); };
+  set_cell(first, {0, 1, 2, 3}, circumsphere(p(0), p(1), p(2), p(3)));
+  cells_[first].neighbors = {kOutside, kOutside, kOutside, kOutside};
+}
+
+std::array<VertexId, 3> Delaunay3::vertices(FacetId facet) const {
+  const auto& corners = kTetFaces[facet.index];
+  const auto& v = cells_[facet.cell].vertices;
+  return {v[corners[0]], v[corners[1]], v[corners[2]]};
+}
+
+/// The visibility walk: through any facet that has p on its far side. It ends in every Delaunay triangulation.
 CellId Delaunay3::locate(const Point3& p, CellId hint) const {
-  return triangulation_.locate({p.x, p.y, p.z}, cells_[hint])->info();
+  CellId cell = hint, came_from = kNone;
+  for (bool moved = true; moved;) {
+    moved = false;
+    for (int i = 0; i < 4 && !moved; ++i) {
+      const CellId next = cells_[cell].neighbors[i];
+      if (next == came_from || next == kOutside) continue;
+      if (!is_beyond({cell, i}, p)) continue;
+      came_from = cell;
+      cell = next;
+      moved = true;
+    }
+  }
+  return cell;
 }
 
-bool Delaunay3::in_conflict(CellId cell, const Point3& p) const {
-  return triangulation_.side_of_sphere(cells_[cell], {p.x, p.y, p.z}, true) == CGAL::ON_BOUNDED_SIDE;
+bool Delaunay3::is_beyond(FacetId facet, const Point3& p) const {
+  const auto v = vertices(facet);
+  const Point3 &a = point(v[0]), &b = point(v[1]), &c = point(v[2]);
+  if (std::min({v[0], v[1], v[2]}) >= kCorners) {
+    const double six_volumes = dot(cross(b - a, c - a), p - a);
+    if (std::abs(six_volumes) > orientation_error_) return six_volumes > 0;
+  }
+  return orientation(a, b, c, p) > 0;
+}
+
+void Delaunay3::find_incident_cells(VertexId vertex, std::vector<CellId>& around) const {
+  epoch_ += 2;
+  around.assign(1, cell_of(vertex));
+  marks_[around.front()].visited = epoch_;
+  for (std::size_t next = 0; next < around.size(); ++next) {
+    const Cell& cell = cells_[around[next]];
+    for (int i = 0; i < 4; ++i) {
+      const CellId neighbor = cell.neighbors[i];
+      if (cell.vertices[i] == vertex || marks_[neighbor].visited == epoch_) continue;
+      marks_[neighbor].visited = epoch_;
+      around.push_back(neighbor);
+    }
+  }
+}
+
+inline bool Delaunay3::in_conflict(CellId cell, const Point3& p) const {
+  const Circumsphere& sphere = cells_[cell].sphere;
+  if (sphere.squared_radius > trusted_squared_radius_) {
+    // The cached sphere decides unless p is near it: circumsphere() keeps nine digits, the margin asks for six.
+    const double squared = squared_distance(p, sphere.center);
+    const double margin = 1e-6 * (squared + sphere.squared_radius);
+    if (squared < sphere.squared_radius - margin) return true;
+    if (squared > sphere.squared_radius + margin) return false;
+  }
+  return in_conflict_exactly(cell, p);
+}
+
+bool Delaunay3::in_conflict_exactly(CellId cell, const Point3& p) const {
+  if (cell == kOutside) return false;
+  const auto& v = cells_[cell].vertices;
+  return in_sphere(point(v[0]), point(v[1]), point(v[2]), point(v[3]), p);
 }
 
 bool Delaunay3::is_vertex_of(CellId cell, const Point3& p) const {
-  for (VertexId v : links_[cell].vertices) {
-    if (v != kNone && point(v) == p) return true;
-  }
-  return false;
+  const auto& v = cells_[cell].vertices;
+  return std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return point(vertex) == p; });
 }
 
-VertexId Delaunay3::insert_in_hole(const Point3& p, const std::vector<CellId>& zone,
-                                   const std::vector<FacetId>& boundary, std::vector<CellId>& created) {
-  handles_.clear();
-  outer_.clear();
-  for (CellId cell : zone) handles_.push_back(cells_[cell]);
-  for (const FacetId& facet : boundary) outer_.push_back(mirror(facet));
-  const auto handle = triangulation_.insert_in_hole({p.x, p.y, p.z}, handles_.begin(), handles_.end(),
-                                                    cells_[boundary.front().cell], boundary.front().index);
-  const VertexId vertex = name_vertex(handle);
-  // Freed in reverse, so that the zone's first cell is used first again: neighbours stay near in memory.
-  for (auto cell = zone.rbegin(); cell != zone.rend(); ++cell) free_cells_.push_back(*cell);
-  created.clear();
-  for (const FacetId& facet : outer_) {
-    const CellId cell = name_cell(cells_[facet.cell]->neighbor(facet.index));
-    links_[facet.cell].neighbors[facet.index] = cell;
-    created.push_back(cell);
+void Delaunay3::find_zone(const Point3& p, CellId start, Star& star) const {
+  // Two marks per search: even epochs for cells in conflict, odd ones for cells found not to be.
+  epoch_ += 2;
+  const auto add = [&](CellId cell) {
+    star.zone.push_back(cell);
+    for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
+  };
+  marks_[start].visited = epoch_;
+  add(start);
+  for (std::size_t next = 0; next < star.zone.size(); ++next) {
+    const CellId cell = star.zone[next];
+    for (int i = 0; i < 4; ++i) {
+      const CellId neighbor = cells_[cell].neighbors[i];
+      std::uint32_t& visited = marks_[neighbor].visited;
+      if (visited != epoch_ && visited != epoch_ + 1) {
+        const bool conflict = in_conflict(neighbor, p);
+        visited = conflict ? epoch_ : epoch_ + 1;
+        if (conflict) add(neighbor);
+      }
+      if (visited != epoch_) {
+        Star::Tet& tet = star.tets.emplace_back();
+        tet.outer = neighbor == kOutside ? FacetId{kOutside, 0} : mirror({cell, i});
+        tet.vertices = vertices(FacetId{cell, i});
+      }
+    }
   }
-  for (CellId cell : created) copy_links(cell);
+}
+
+CellId Delaunay3::nearest_hint(const Point3& p, const std::vector<CellId>& hints) const {
+  const auto found = std::find_if(hints.begin(), hints.end(), [&](CellId cell) { return in_conflict(cell, p); });
+  return found != hints.end() ? *found : hints.front();
+}
+
+void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star) const {
+  star.apex = p;
+  star.duplicate = false;
+  star.zone.clear();
+  star.tets.clear();
+  if (!in_conflict(hint, p)) hint = locate(p, hint);
+  if (is_vertex_of(hint, p)) {
+    star.duplicate = true;
+    return;
+  }
+  find_zone(p, hint, star);
+  edges_.match(star.tets);
+  for (Star::Tet& tet : star.tets) {
+    tet.sphere = circumsphere(p, point(tet.vertices[0]), point(tet.vertices[1]), point(tet.vertices[2]));
+  }
+}
+
+void Delaunay3::join(FacetId facet, FacetId outer) {
+  cells_[facet.cell].neighbors[facet.index] = outer.cell;
+  if (outer.cell != kOutside) cells_[outer.cell].neighbors[outer.index] = facet.cell;
+}
+
+VertexId Delaunay3::new_vertex(const Point3& p) {
+  if (free_vertices_.empty()) {
+    vertices_.push_back({p, kOutside});
+    return static_cast<VertexId>(vertices_.size() - 1);
+  }
+  const VertexId vertex = free_vertices_.back();
+  free_vertices_.pop_back();
+  vertices_[vertex] = {p, kOutside};
   return vertex;
 }
 
-VertexId Delaunay3::insert_unnamed(const Point3& p) {
-  const std::size_t before = triangulation_.number_of_vertices();
-  const auto vertex = triangulation_.insert({p.x, p.y, p.z}, last_);
-  last_ = vertex->cell();
-  return triangulation_.number_of_vertices() == before ? vertex->info() : name_vertex(vertex);
+CellId Delaunay3::new_cell() {
+  if (free_cells_.empty()) {
+    const std::size_t cell = cells_.size();
+    cells_.grow_to(cell + 1);
+    marks_.grow_to(cell + 1);
+    return static_cast<CellId>(cell);
+  }
+  const CellId cell = free_cells_.back();
+  free_cells_.pop_back();
+  return cell;
+}
+
+void Delaunay3::set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere) {
+  cells_[cell].vertices = vertices;
+  cells_[cell].sphere = sphere;
+  marks_[cell].stamp = next_stamp_++;
+  for (VertexId v : vertices) vertices_[v].cell = cell;
+}
+
+VertexId Delaunay3::commit(const Star& star, std::vector<CellId>& created) {
+  const VertexId apex = new_vertex(star.apex);
+  // The zone's numbers are used again at once: neighbours stay near in memory.
+  created.assign(star.zone.begin(), star.zone.begin() + static_cast<std::ptrdiff_t>(
+                                                            std::min(star.zone.size(), star.tets.size())));
+  for (std::size_t i = star.tets.size(); i < star.zone.size(); ++i) {
+    marks_[star.zone[i]].stamp = 0;
+    free_cells_.push_back(star.zone[i]);
+  }
+  while (created.size() < star.tets.size()) created.push_back(new_cell());
+  for (std::size_t t = 0; t < star.tets.size(); ++t) {
+    const Star::Tet& tet = star.tets[t];
+    const CellId cell = created[t];
+    set_cell(cell, {apex, tet.vertices[0], tet.vertices[1], tet.vertices[2]}, tet.sphere);
+    for (int i = 0; i < 3; ++i) cells_[cell].neighbors[i + 1] = created[tet.beside[i]];
+    join({cell, 0}, tet.outer);
+  }
+  return apex;
 }
 
 void Delaunay3::remove(VertexId vertex, std::vector<CellId>& destroyed, std::vector<CellId>& created) {
-  destroyed.clear();
+  find_incident_cells(vertex, destroyed);
+  if (!hole_filling_) hole_filling_ = std::make_unique<HoleFilling>(bounds_);
+  hole_filling_->find(*this, vertex, destroyed);
   created.clear();
-  handles_.clear();
-  triangulation_.incident_cells(vertices_[vertex], std::back_inserter(handles_));
-  for (const auto& handle : handles_) destroyed.push_back(handle->info());
-  handles_.clear();
-  triangulation_.remove_and_give_new_cells(vertices_[vertex], std::back_inserter(handles_));
-  for (CellId cell : destroyed) free_cells_.push_back(cell);
-  for (const auto& handle : handles_) created.push_back(name_cell(handle));
-  for (CellId cell : created) {
-    copy_links(cell);
-    for (int i = 0; i < 4; ++i) copy_links(cells_[cell]->neighbor(i)->info());
+  for (std::size_t i = 0; i < hole_filling_->tets().size(); ++i) {
+    created.push_back(i < destroyed.size() ? destroyed[i] : new_cell());
   }
-  vertices_[vertex] = Triangulation::Vertex_handle();
+  for (std::size_t i = created.size(); i < destroyed.size(); ++i) {
+    marks_[destroyed[i]].stamp = 0;
+    free_cells_.push_back(destroyed[i]);
+  }
+  for (std::size_t i = 0; i < created.size(); ++i) {
+    const HoleFilling::Tet& tet = hole_filling_->tets()[i];
+    set_cell(created[i], tet.vertices, tet.sphere);
+    for (int f = 0; f < 4; ++f) {
+      const HoleFilling::Side& side = tet.sides[f];
+      if (side.tet != kNone) {
+        cells_[created[i]].neighbors[f] = created[side.tet];
+      } else {
+        join({created[i], f}, side.outer);
+      }
+    }
+  }
   free_vertices_.push_back(vertex);
 }
 

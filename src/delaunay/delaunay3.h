@@ -1,114 +1,116 @@
 #pragma once
 
-#include <CGAL/Delaunay_triangulation_3.h>
-#include <CGAL/Delaunay_triangulation_cell_base_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_cell_base_with_info_3.h>
-#include <CGAL/Triangulation_vertex_base_with_info_3.h>
-
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "core/page_array.h"
+#include "delaunay/circumsphere.h"
+#include "delaunay/edge_matcher.h"
 #include "delaunay/ids.h"
+#include "delaunay/star.h"
 #include "delvox/core/geometry.h"
 
 namespace delvox {
 
-/// A vertex that carries its number, and its time of creation: CGAL then orders and hashes vertices by that, not by
-/// address, and removals fill their holes alike on every run.
-template <class Kernel, class Base = CGAL::Triangulation_vertex_base_with_info_3<VertexId, Kernel>>
-class StampedVertexBase : public Base {
- public:
-  template <class Structure>
-  struct Rebind_TDS {
-    using Other = StampedVertexBase<Kernel, typename Base::template Rebind_TDS<Structure>::Other>;
-  };
-  using Base::Base;
-  using Has_timestamp = CGAL::Tag_true;
-  std::size_t time_stamp() const { return stamp_; }
-  void set_time_stamp(std::size_t stamp) { stamp_ = stamp; }
-
- private:
-  std::size_t stamp_ = static_cast<std::size_t>(-1);
-};
-
-/// CGAL's Delaunay triangulation behind cell and vertex numbers. Numbers of dead cells and vertices are used again;
-/// a cell's stamp tells whether it is still the cell that was meant.
+/// A Delaunay triangulation in flat arrays, with every cell's circumsphere at hand: as a filter it settles all but one
+/// in a hundred in-sphere tests, exact predicates the rest. Numbers of dead cells and vertices are used again; a cell's
+/// stamp tells whether it is still the cell that was meant.
+///
+/// All lies inside one tetrahedron of four corner vertices (numbers 0 to 3) far outside the data; the cell with number
+/// kOutside stands for all that is beyond it.
 class Delaunay3 {
  public:
-  /// Starts with four corner vertices far outside `bounds`; every point inserted later must lie inside `bounds`,
-  /// so that no cell with the infinite vertex is ever in conflict.
+  static constexpr CellId kOutside = 0;
+
+  /// Every point inserted later must lie inside `bounds`.
   explicit Delaunay3(const Box3& bounds);
+  ~Delaunay3();
 
   std::size_t cell_capacity() const { return cells_.size(); }
   std::size_t vertex_capacity() const { return vertices_.size(); }
-  std::size_t vertex_count() const { return triangulation_.number_of_vertices(); }
+  /// Corners included.
+  std::size_t vertex_count() const { return vertices_.size() - free_vertices_.size(); }
 
-  /// False for cells with the infinite vertex, whose number is kNone.
-  bool finite(CellId cell) const {
-    const auto& v = links_[cell].vertices;
-    return v[0] != kNone && v[1] != kNone && v[2] != kNone && v[3] != kNone;
-  }
-  const std::array<VertexId, 4>& vertices(CellId cell) const { return links_[cell].vertices; }
-  const std::array<CellId, 4>& neighbors(CellId cell) const { return links_[cell].neighbors; }
+  /// 0 for cells that are not in use; changes whenever the number is given to another cell.
+  std::uint32_t stamp(CellId cell) const { return marks_[cell].stamp; }
+  /// What the next cell will get; stamps grow.
+  std::uint32_t next_stamp() const { return next_stamp_; }
+  /// In positive order; kNone for the cell outside.
+  const std::array<VertexId, 4>& vertices(CellId cell) const { return cells_[cell].vertices; }
+  const std::array<CellId, 4>& neighbors(CellId cell) const { return cells_[cell].neighbors; }
+  const Circumsphere& sphere(CellId cell) const { return cells_[cell].sphere; }
+  /// Counter-clockwise seen from outside the cell.
+  std::array<VertexId, 3> vertices(FacetId facet) const;
+  /// The same facet, of the cell on its other side. pre: that is not the cell outside.
   FacetId mirror(FacetId facet) const {
-    const CellId other = links_[facet.cell].neighbors[facet.index];
-    const auto& back = links_[other].neighbors;
-    // Two cells share one facet only, once there are more than five points.
+    const CellId other = cells_[facet.cell].neighbors[facet.index];
+    const auto& back = cells_[other].neighbors;
     return {other, back[0] == facet.cell ? 0 : back[1] == facet.cell ? 1 : back[2] == facet.cell ? 2 : 3};
   }
-  Point3 point(VertexId vertex) const {
-    const auto& p = vertices_[vertex]->point();
-    return {p.x(), p.y(), p.z()};
-  }
-
-  /// A cell that contains p, by a walk from `hint`.
-  CellId locate(const Point3& p, CellId hint) const;
-  /// Exactly whether p lies inside the circumsphere of `cell`, cospherical points decided by CGAL's perturbation.
-  bool in_conflict(CellId cell, const Point3& p) const;
-  bool is_vertex_of(CellId cell, const Point3& p) const;
-
-  /// Replaces the conflict zone by the star of p. `boundary` holds the facets of the zone's boundary, seen from inside;
-  /// `created` receives the new cells in the same order.
-  VertexId insert_in_hole(const Point3& p, const std::vector<CellId>& zone, const std::vector<FacetId>& boundary,
-                          std::vector<CellId>& created);
-  /// Inserts with CGAL's own search; new cells have no numbers until name_all_cells().
-  VertexId insert_unnamed(const Point3& p);
-  /// Numbers every cell from 0; numbers used before are void.
-  void name_all_cells();
-  /// Removes a vertex; `created` receives the numbers of the cells that fill the hole, `destroyed` those freed.
-  void remove(VertexId vertex, std::vector<CellId>& destroyed, std::vector<CellId>& created);
+  const Point3& point(VertexId vertex) const { return vertices_[vertex].point; }
   /// Some cell at the vertex.
-  CellId cell_of(VertexId vertex) const { return vertices_[vertex]->cell()->info(); }
+  CellId cell_of(VertexId vertex) const { return vertices_[vertex].cell; }
+
+  /// The cell that contains p, by a walk from `hint`. pre: p inside the bounds.
+  CellId locate(const Point3& p, CellId hint) const;
+  /// Cells around a vertex other than a corner, in an order that depends on the triangulation alone.
+  void find_incident_cells(VertexId vertex, std::vector<CellId>& cells) const;
+
+  /// Among cells near p, one that its insertion would destroy, or else the first.
+  CellId nearest_hint(const Point3& p, const std::vector<CellId>& hints) const;
+  /// What would inserting p do? Labels of the star are not set. `hint` is a cell near p.
+  void evaluate(const Point3& p, CellId hint, Star& star) const;
+  /// Whether the cell belongs to the zone of the star evaluated last. pre: no other search since.
+  bool in_zone(CellId cell) const { return marks_[cell].visited == epoch_; }
+  /// Inserts the apex of the star evaluated last; `created` receives the new cells in the order of the star's tets, with
+  /// the apex as their first vertex. pre: !star.duplicate, no other search since.
+  VertexId commit(const Star& star, std::vector<CellId>& created);
+  /// Removes a vertex; `destroyed` receives the numbers of the cells that are gone, `created` of those that fill the
+  /// hole. pre: no corner.
+  void remove(VertexId vertex, std::vector<CellId>& destroyed, std::vector<CellId>& created);
 
  private:
-  using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-  using VertexBase = StampedVertexBase<Kernel>;
-  using CellBase =
-      CGAL::Triangulation_cell_base_with_info_3<CellId, Kernel, CGAL::Delaunay_triangulation_cell_base_3<Kernel>>;
-  using Structure = CGAL::Triangulation_data_structure_3<VertexBase, CellBase>;
-  using Triangulation = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
-
-  VertexId name_vertex(Triangulation::Vertex_handle handle);
-  CellId name_cell(Triangulation::Cell_handle handle);
-  void copy_links(CellId cell);
-
-  /// CGAL's pointers as numbers: all that searches read, in half a cache line.
-  struct Links {
+  struct alignas(64) Cell {
     std::array<VertexId, 4> vertices;
     std::array<CellId, 4> neighbors;
+    Circumsphere sphere;
   };
+  static_assert(sizeof(Cell) == 64);
+  struct Mark {
+    std::uint32_t stamp;
+    std::uint32_t visited;  // epoch of the last search that met the cell
+  };
+  struct Vertex {
+    Point3 point;
+    CellId cell = kOutside;
+  };
+  class HoleFilling;
 
-  Triangulation triangulation_;
-  std::vector<Triangulation::Cell_handle> cells_;
-  std::vector<Links> links_;
-  std::vector<Triangulation::Vertex_handle> vertices_;
+  void clear();
+  void make_first_cell();
+  bool in_conflict(CellId cell, const Point3& p) const;
+  bool in_conflict_exactly(CellId cell, const Point3& p) const;
+  bool is_vertex_of(CellId cell, const Point3& p) const;
+  bool is_beyond(FacetId facet, const Point3& p) const;
+  void find_zone(const Point3& p, CellId start, Star& star) const;
+  VertexId new_vertex(const Point3& p);
+  CellId new_cell();
+  void set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere);
+  void join(FacetId facet, FacetId outer);
+
+  Box3 bounds_;
+  PageArray<Cell> cells_;
+  mutable PageArray<Mark> marks_;
+  std::vector<Vertex> vertices_;
   std::vector<CellId> free_cells_;
   std::vector<VertexId> free_vertices_;
-  Triangulation::Cell_handle last_;
-  std::vector<Triangulation::Cell_handle> handles_;  // scratch
-  std::vector<FacetId> outer_;                       // scratch
+  double trusted_squared_radius_ = 0, orientation_error_ = 0;
+  std::uint32_t next_stamp_ = 1;
+  mutable std::uint32_t epoch_ = 0;
+  mutable EdgeMatcher edges_;
+  std::unique_ptr<HoleFilling> hole_filling_;  // made by the first removal
 };
 
 }  // namespace delvox

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace delvox {
@@ -13,5 +15,11 @@ struct FacetId {
   CellId cell = kNone;
   int index = 0;
 };
+
+/// The same oriented triangle, its smallest vertex first.
+inline std::array<VertexId, 3> canonical(std::array<VertexId, 3> triangle) {
+  std::rotate(triangle.begin(), std::min_element(triangle.begin(), triangle.end()), triangle.end());
+  return triangle;
+}
 
 }  // namespace delvox

@@ -1,83 +1,82 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
+#include <functional>
 #include <vector>
 
-#include "delaunay/circumsphere.h"
-#include "delaunay/ids.h"
+#include "delaunay/delaunay3.h"
+#include "delaunay/surface_balls.h"
+#include "delaunay/walled_region.h"
 #include "delvox/core/geometry.h"
 #include "delvox/oracle/oracle.h"
 
 namespace delvox {
 
-enum class VertexKind : std::uint8_t { kCorner, kSurface, kInterior };
+enum class VertexKind : std::uint8_t { kCorner, kSurface, kInterior, kRemoved };
 
-/// A circumball of a restricted triangle, centred on the surface (book, definition 14.1).
-struct SurfaceBall {
-  Point3 center;
-  double squared_radius = 0;
-};
-
-/// What Del S knows of a cell beside its vertices: its Voronoi vertex and the region that lies in. One cache line.
-struct alignas(64) Cell {
-  Circumsphere sphere;
-  Label label = 0;          ///< of the circumcentre; cells with a corner vertex are outside
-  std::uint32_t stamp = 0;  ///< changes whenever the number is given to another cell; 0: not in use
-  std::array<std::int32_t, 4> balls{-1, -1, -1, -1};  ///< number of each facet's surface ball, -1: none computed
-  mutable std::uint32_t visited = 0;                  ///< epoch of the last search that met the cell
-};
-
-/// The tetrahedra that inserting a point would make, known before anything is changed.
-struct Star {
-  struct Tet {
-    FacetId outer;                    ///< facet of the cell that will be its neighbour opposite the apex
-    std::array<VertexId, 3> vertices;  ///< the other three; (apex, vertices) is positive
-    Circumsphere sphere;
-    Label label = 0;
-  };
-  Point3 apex;
-  bool duplicate = false;        ///< the apex is a vertex already; zone and tets are empty
-  std::vector<CellId> zone;      ///< cells whose circumsphere contains the apex
-  std::vector<Tet> tets;
-};
-
-/// Del S of a point set with the complexes restricted to an oracle's domain: a cell belongs to Del|O if its label is
-/// not 0, a facet to the surface if its dual edge is bipolar, that is, if the labels of its two cells differ. Surface
-/// balls are computed on demand only (the lazy strategy of the book, 14.1.3) and kept until their facet changes.
+/// Del S of a point set with the complexes restricted to an oracle's domain: a cell belongs to Del|O if its label, that
+/// of its circumcentre, is not 0, a facet to the surface if its dual edge is bipolar, that is, if the labels of its two
+/// cells differ. Cells with a corner vertex are outside. Surface balls are computed on demand only (the lazy strategy of
+/// the book, 14.1.3) and kept until their facet changes.
 class RestrictedDelaunay {
  public:
+  /// The number that stands for all beyond the corners, of label 0; it has no vertices.
+  static constexpr CellId kBeyond = Delaunay3::kOutside;
+
   explicit RestrictedDelaunay(const Oracle& oracle);
-  ~RestrictedDelaunay();
 
   /// Inserts points of the surface in spatial order; all cells count as created.
   void insert_seeds(const std::vector<Point3>& seeds);
 
-  std::size_t cell_capacity() const { return cells_.size(); }
-  std::size_t vertex_capacity() const { return kinds_.size(); }
+  /// Inserts points inside the domain that lie in no computed surface ball and on no vertex, in spatial order: many at
+  /// once, labels being asked for at the end only. Ends early when go_on() says so. Returns their vertices, kNone for
+  /// points not inserted; created() holds all cells made.
+  std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const std::function<bool()>& go_on);
+
+  /// Sets a part of the domain aside: its cells are placeholders for a mesh of it that is known otherwise, until
+  /// take_back(). `walls`: each counter-clockwise seen from outside the part. False, and nothing is set aside, if one of
+  /// them is no facet.
+  bool set_aside(const std::vector<WalledRegion::Wall>& walls) { return aside_.enclose(delaunay_, walls); }
+  void take_back() { aside_.clear(); }
+  bool placeholder(CellId cell) const { return aside_.inside(cell); }
+  /// Would replacing these cells change what is set aside?
+  bool disturbs_aside(const std::vector<CellId>& cells) const {
+    return !aside_.empty() && std::any_of(cells.begin(), cells.end(), [&](CellId c) { return aside_.guarded(c); });
+  }
+
+  std::size_t cell_capacity() const { return delaunay_.cell_capacity(); }
+  std::size_t vertex_capacity() const { return delaunay_.vertex_capacity(); }
   /// Vertices other than the corners.
-  std::size_t vertex_count() const;
-  bool alive(CellId cell, std::uint32_t stamp) const { return cells_[cell].stamp == stamp; }
-  const Cell& cell(CellId cell) const { return cells_[cell]; }
+  std::size_t vertex_count() const { return delaunay_.vertex_count() - 4; }
+  /// Changes whenever the number is given to another cell; 0: not in use.
+  std::uint32_t stamp(CellId cell) const { return delaunay_.stamp(cell); }
+  bool alive(CellId cell, std::uint32_t stamp) const { return delaunay_.stamp(cell) == stamp; }
+  const Circumsphere& sphere(CellId cell) const { return delaunay_.sphere(cell); }
+  Label label(CellId cell) const { return labels_[cell]; }
   /// In positive order; cells with corner vertices included.
-  const std::array<VertexId, 4>& vertices(CellId cell) const;
+  const std::array<VertexId, 4>& vertices(CellId cell) const { return delaunay_.vertices(cell); }
   /// Counter-clockwise seen from outside the cell.
-  std::array<VertexId, 3> vertices(FacetId facet) const;
-  const std::array<CellId, 4>& neighbors(CellId cell) const;
-  FacetId mirror(FacetId facet) const;
+  std::array<VertexId, 3> vertices(FacetId facet) const { return delaunay_.vertices(facet); }
+  const std::array<CellId, 4>& neighbors(CellId cell) const { return delaunay_.neighbors(cell); }
+  FacetId mirror(FacetId facet) const { return delaunay_.mirror(facet); }
   VertexKind kind(VertexId vertex) const { return kinds_[vertex]; }
-  const Point3& point(VertexId vertex) const { return points_[vertex]; }
+  const Point3& point(VertexId vertex) const { return delaunay_.point(vertex); }
   /// Cells around a vertex, in an order that depends on the triangulation alone. Valid until the next call.
   const std::vector<CellId>& incident_cells(VertexId vertex) const;
+  /// Some cell at the vertex.
+  CellId cell_of(VertexId vertex) const { return delaunay_.cell_of(vertex); }
   /// The cell that contains p, by a walk from `hint`.
-  CellId locate(const Point3& p, CellId hint) const;
+  CellId locate(const Point3& p, CellId hint) const { return delaunay_.locate(p, hint); }
 
   /// Is the facet's dual edge bipolar?
-  bool bipolar(FacetId facet) const;
+  bool bipolar(FacetId facet) const { return label(facet.cell) != label(neighbors(facet.cell)[facet.index]); }
   /// The ball if it has been computed, else nullptr. Only bipolar facets have one.
-  const SurfaceBall* ball(FacetId facet) const;
+  const SurfaceBall* ball(FacetId facet) const { return balls_.find(facet); }
+  /// Whether any facet of the cell has a computed ball.
+  bool has_balls(CellId cell) const { return balls_.any(cell); }
   /// Computes and keeps the surface Delaunay ball. pre: bipolar(facet).
   const SurfaceBall& compute_ball(FacetId facet);
   /// A crossing of the dual edge between two Voronoi vertices of different labels; the same from both sides.
@@ -85,6 +84,8 @@ class RestrictedDelaunay {
 
   /// What would inserting p do? `hint` is a cell near p. The reference is valid until the next call.
   const Star& evaluate(const Point3& p, CellId hint);
+  /// Whether the cell belongs to the zone of the star evaluated last. pre: no other search since.
+  bool in_zone(CellId cell) const { return delaunay_.in_zone(cell); }
   /// Inserts the apex of the star evaluated last; created() holds the new cells. pre: !star.duplicate.
   VertexId commit(VertexKind kind);
   /// Removes an interior vertex; created() holds the cells that fill the hole.
@@ -93,33 +94,21 @@ class RestrictedDelaunay {
   const std::vector<CellId>& created() const { return created_; }
 
  private:
-  struct Kernel;
-
-  void find_zone(const Point3& p, CellId start);
-  bool in_conflict(CellId cell, const Point3& p) const;
-  void collect_star_tets();
-  Star::Tet make_star_tet(FacetId inner) const;
-  void describe_cell(CellId cell);
+  Label label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere) const;
+  void describe(CellId cell);
+  VertexId commit_unlabelled(VertexKind kind);
+  void set_kind(VertexId vertex, VertexKind kind);
   void drop_ball(FacetId facet);
-  void drop_balls_of(CellId cell);
-  void set_ball(FacetId facet, std::int32_t ball);
-  void ensure_cell(CellId cell);
-  void name_vertex(VertexId vertex, const Point3& p, VertexKind kind);
 
   const Oracle& oracle_;
-  std::unique_ptr<Kernel> kernel_;
-  std::vector<Cell> cells_;
-  std::vector<Point3> points_;
+  Delaunay3 delaunay_;
+  std::vector<Label> labels_;
   std::vector<VertexKind> kinds_;
-  std::vector<SurfaceBall> balls_;
-  std::vector<std::int32_t> free_balls_;
+  SurfaceBalls balls_;
+  WalledRegion aside_;
   std::vector<CellId> created_, destroyed_;
   mutable std::vector<CellId> around_;
   Star star_;
-  std::vector<FacetId> inner_facets_;
-  double trusted_squared_radius_ = 0;
-  mutable std::uint32_t epoch_ = 0;
-  std::uint32_t next_stamp_ = 1;
 };
 
 }  // namespace delvox

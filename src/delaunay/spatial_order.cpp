@@ -1,44 +1,73 @@
 #include "delaunay/spatial_order.h"
 
-#include <CGAL/hilbert_sort.h>
-#include <CGAL/Spatial_sort_traits_adapter_3.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <numeric>
 
 #include "core/hash.h"
 
 namespace delvox {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+constexpr int kBits = 16;  // per axis
+
+/// Where a cell of the 2^kBits grid comes along Hilbert's curve (Skilling, "Programming the Hilbert curve", 2004): the
+/// coordinates are turned, level by level, into those of the curve's own frame.
+std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
+  for (std::uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1) {
+    const std::uint32_t below = bit - 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (x[axis] & bit) {
+        x[0] ^= below;
+      } else {
+        const std::uint32_t swapped = (x[0] ^ x[axis]) & below;
+        x[0] ^= swapped;
+        x[axis] ^= swapped;
+      }
+    }
+  }
+  x[1] ^= x[0];
+  x[2] ^= x[1];
+  std::uint32_t parity = 0;
+  for (std::uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1) {
+    if (x[2] & bit) parity ^= bit - 1;
+  }
+  std::uint64_t index = 0;
+  for (int bit = kBits - 1; bit >= 0; --bit) {
+    for (int axis = 0; axis < 3; ++axis) index = index << 1 | ((x[axis] ^ parity) >> bit & 1);
+  }
+  return index;
+}
 
 /// Rounds halve in size going back from the last: the last holds half of the points.
-int round_of(const Point3& p, int last_round) {
-  return std::max(0, last_round - std::countr_zero(hash_point(p) | (1ull << 63)));
+std::uint64_t round_of(const Point3& p, int last_round) {
+  return static_cast<std::uint64_t>(std::max(0, last_round - std::countr_zero(hash_point(p) | (1ull << 63))));
 }
 
 }  // namespace
 
-std::vector<Point3> in_spatial_order(const std::vector<Point3>& points) {
-  std::vector<Kernel::Point_3> sorted_points;
-  sorted_points.reserve(points.size());
-  for (const Point3& p : points) sorted_points.emplace_back(p.x, p.y, p.z);
-  const int last_round = std::max(0, static_cast<int>(std::bit_width(points.size() / 64)));
-  std::vector<std::vector<std::size_t>> rounds(last_round + 1);
-  for (std::size_t i = 0; i < points.size(); ++i) rounds[round_of(points[i], last_round)].push_back(i);
-
-  using Map = CGAL::Pointer_property_map<Kernel::Point_3>::type;
-  const CGAL::Spatial_sort_traits_adapter_3<Kernel, Map> traits(CGAL::make_property_map(sorted_points));
-  std::vector<Point3> result;
-  result.reserve(points.size());
-  for (auto& round : rounds) {
-    CGAL::hilbert_sort(round.begin(), round.end(), traits);
-    for (std::size_t i : round) result.push_back(points[i]);
+std::vector<std::uint32_t> spatial_order(const std::vector<Point3>& points) {
+  Box3 box;
+  for (const Point3& p : points) box.extend(p);
+  const double extent = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z, 1e-300});
+  const double scale = ((1u << kBits) - 1) / extent;
+  const int last_round = std::bit_width(points.size() / 64);
+  struct Entry {
+    std::uint64_t key;
+    std::uint32_t index;
+  };
+  std::vector<Entry> entries(points.size());
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    const Vector3 u = scale * (points[i] - box.min);
+    const std::uint64_t along = hilbert_index(
+        {static_cast<std::uint32_t>(u.x), static_cast<std::uint32_t>(u.y), static_cast<std::uint32_t>(u.z)});
+    entries[i] = {round_of(points[i], last_round) << 3 * kBits | along, i};
   }
-  return result;
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  std::vector<std::uint32_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries[i].index;
+  return order;
 }
 
 std::uint64_t hash_point(const Point3& p) {

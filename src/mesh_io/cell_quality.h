@@ -6,13 +6,13 @@
 
 namespace delvox::mesh_io {
 
-struct TetQuality {
-  double radius_edge;           ///< circumradius / shortest edge; infinite for a flat tet
-  double min_dihedral_degrees;  ///< the smallest of the six
-};
+/// Circumradius / shortest edge of a tet; infinite for a flat one.
+double radius_edge_ratio(const std::array<Point3, 4>& p);
 
-TetQuality tet_quality(const std::array<Point3, 4>& p);
+/// The smallest of the six dihedral angles of a tet; 0 for a flat one.
+double min_dihedral_degrees(const std::array<Point3, 4>& p);
 
+/// The smallest angle of a triangle; 0 if two corners coincide.
 double min_angle_degrees(const std::array<Point3, 3>& p);
 
 }  // namespace delvox::mesh_io

@@ -1,8 +1,10 @@
 #include "mesh_io/vtu_data.h"
 
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <array>
+#include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -127,6 +129,9 @@ std::string VtuArrays::decompress(Bytes& bytes) {
   const std::uint64_t partial_size = header_number(head, 2);
   if (blocks > source_.bytes.size() / header_size_) source_.fail("an array claims too many compressed blocks");
   const std::string sizes = bytes.take(blocks * header_size_);
+  const std::unique_ptr<libdeflate_decompressor, void (*)(libdeflate_decompressor*)> decompressor(
+      libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+  if (!decompressor) throw std::bad_alloc();
   std::string result;
   for (std::uint64_t b = 0; b < blocks; ++b) {
     const std::uint64_t packed_size = header_number(sizes, b);
@@ -136,10 +141,9 @@ std::string VtuArrays::decompress(Bytes& bytes) {
     spend(full_size);
     const std::size_t start = result.size();
     result.resize(start + full_size);
-    uLongf unpacked = full_size;
-    const int status = uncompress(reinterpret_cast<Bytef*>(result.data() + start), &unpacked,
-                                  reinterpret_cast<const Bytef*>(packed.data()), packed.size());
-    if (status != Z_OK || unpacked != full_size) source_.fail("a compressed block is damaged");
+    const libdeflate_result status = libdeflate_zlib_decompress(decompressor.get(), packed.data(), packed.size(),
+                                                                result.data() + start, full_size, nullptr);
+    if (status != LIBDEFLATE_SUCCESS) source_.fail("a compressed block is damaged");
   }
   return result;
 }

@@ -27,6 +27,8 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
     budget.begin_stage("surface");
     refinement.refine_surface();  // steps 2 and 3, Quality
   } while (repair_topology());
+  budget.begin_stage("interior");
+  refinement.fill_interior(options.tets);
   refinement.watch_tets(options.tets);
   do {
     budget.begin_stage("tets");
@@ -36,7 +38,7 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
   budget.end_stage();
 
   refinement.report_unmet();
-  TetMesh mesh = extract_tets(refinement.delaunay());  // step 8
+  TetMesh mesh = extract_tets(refinement.delaunay(), refinement.deep() ? &*refinement.deep() : nullptr);  // step 8
   mesh.info.promises = promises_of(options.surface, options.tets);
   withdraw_unmet(report, mesh.info.promises);
   mesh.info.complete = report.succeeded();

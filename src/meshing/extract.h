@@ -2,13 +2,15 @@
 
 #include "delaunay/restricted_delaunay.h"
 #include "delvox/core/mesh.h"
+#include "meshing/deep_lattice.h"
 
 namespace delvox {
 
 /// The restricted triangles, oriented outward, with the vertices they use.
 SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay);
 
-/// The cells with a label other than 0, the triangles between them and the outside, and the vertices they use.
-TetMesh extract_tets(const RestrictedDelaunay& delaunay);
+/// The cells with a label other than 0, the triangles between them and the outside, and the vertices they use; in place
+/// of placeholders the tets of `deep`, if given.
+TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep);
 
 }  // namespace delvox

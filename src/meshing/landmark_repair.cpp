@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "meshing/pieces.h"
 #include "meshing/refinement.h"
@@ -8,114 +7,173 @@
 namespace delvox {
 
 bool Refinement::repair_landmarks() {
-  if (landmarks_.points.empty()) return false;
-  landmark_places_.resize(landmarks_.points.size());
+  if (watch_.empty()) return false;
+  landmark_places_.resize(watch_.size());
+  const std::vector<LandmarkWatch::Due> due = watch_.take_due();
+  watch_.await_links_of(due);
   bool inserted = false;
-  lost_landmarks_ = 0;
-  CellId hint = delaunay_.created().front();
-  for (std::size_t i = 0; i < landmarks_.points.size(); ++i) {
+  for (const LandmarkWatch::Due& landmark : due) {
     if (!budget_left()) return inserted;
-    LandmarkPlace& place = landmark_places_[i];
-    // Most cells outlive a round of repairs, and with them what was found of their landmarks.
-    if (place.cell == kNone || !delaunay_.alive(place.cell, place.stamp)) inserted |= repair_landmark(i, hint);
-    if (place.lost) {
-      ++lost_landmarks_;
-      lost_place_ = landmarks_.points[i];
-    }
-    hint = place.cell;
+    inserted |= repair_landmark(landmark);
   }
-  return inserted || repair_pieces();
+  return inserted || repair_links() || repair_pieces();
 }
 
-bool Refinement::repair_landmark(std::size_t index, CellId hint) {
-  const Point3& landmark = landmarks_.points[index];
-  LandmarkPlace& place = landmark_places_[index];
-  place.cell = delaunay_.locate(landmark, hint);
-  place.lost = false;
-  const auto p = crossing_beside(landmark, place.cell);
-  const bool inserted = p && insert_for_landmark(*p, place.cell);
-  if (inserted) {
-    place.cell = delaunay_.created().front();
-    place.stamp = 0;  // to be looked for again
-  } else {
-    place.stamp = delaunay_.cell(place.cell).stamp;
-    place.lost = p.has_value();
-  }
+/// The cell that holds a landmark, looked for only if the one known is gone.
+CellId Refinement::cell_of_landmark(const LandmarkWatch::Due& due) {
+  LandmarkPlace& place = landmark_places_[due.landmark];
+  if (place.cell != kNone && delaunay_.alive(place.cell, place.stamp)) return place.cell;
+  const bool vertex_known = due.near != kNone && delaunay_.kind(due.near) != VertexKind::kRemoved;
+  if (vertex_known) last_located_ = delaunay_.cell_of(due.near);
+  const bool last_known = delaunay_.stamp(last_located_) != 0 && last_located_ != RestrictedDelaunay::kBeyond;
+  place.cell = delaunay_.locate(watch_.point(due.landmark), last_known ? last_located_ : delaunay_.created().front());
+  place.stamp = delaunay_.stamp(place.cell);
+  last_located_ = place.cell;
+  return place.cell;
+}
+
+bool Refinement::repair_landmark(const LandmarkWatch::Due& due) {
+  const CellId cell = cell_of_landmark(due);
+  const auto p = crossing_beside(watch_.point(due.landmark), cell);
+  const bool inserted = p && insert_for_landmark(*p, cell);
+  LandmarkPlace& place = landmark_places_[due.landmark];
+  lost_landmarks_ -= place.lost;
+  place.lost = p && !inserted;
+  lost_landmarks_ += place.lost;
+  if (place.lost) lost_place_ = watch_.point(due.landmark);
   return inserted;
 }
 
 /// If the cell that holds the landmark has the other label: a point of the surface inside the cell's circumball, between
 /// the landmark and the circumcentre. Inserting it destroys the cell.
 std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId cell) const {
-  const Cell& data = delaunay_.cell(cell);
   const Label label = oracle_.label(landmark);
-  if (label == data.label) return std::nullopt;
-  return delaunay_.dual_crossing(landmark, label, data.sphere.center, data.label);
+  if (label == delaunay_.label(cell)) return std::nullopt;
+  return delaunay_.dual_crossing(landmark, label, delaunay_.sphere(cell).center, delaunay_.label(cell));
 }
 
 bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
   // A landmark that lies on the surface itself, as ties and symmetric volumes have them, asks for points ever nearer to
   // it: even without a smallest ball that must end.
   const double smallest = std::max(surface_.min_ball_radius, 1e-7 * oracle_.bounds().diagonal());
-  const Star& star = delaunay_.evaluate(p, hint);
+  const Star& star = evaluate(p, hint);
   bool too_near = star.duplicate;
   for (const Star::Tet& tet : star.tets) {
     for (VertexId vertex : tet.vertices) too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;
   }
   if (too_near) return false;
-  if (!insert_surface_point(p, hint)) return false;
+  if (!insert_surface_point(p, star.zone.front())) return false;
   ++report_.topology_insertions;
   return true;
 }
 
-/// With every landmark on its side: joins pieces that a link says are one, and splits balls of pieces without landmarks,
-/// which are not real. What to insert is found before anything is inserted, one point for each pair of pieces.
-bool Refinement::repair_pieces() {
-  std::vector<CellId> landmark_cells;
-  for (const LandmarkPlace& place : landmark_places_) landmark_cells.push_back(place.cell);
-  const Pieces pieces = find_pieces(delaunay_, landmark_cells);
-  std::vector<Point3> points;
-  std::set<std::pair<std::uint32_t, std::uint32_t>> treated;
-  for (const auto& [a, b] : landmarks_.links) {
-    const std::uint32_t piece_a = pieces.of_cell[landmark_cells[a]], piece_b = pieces.of_cell[landmark_cells[b]];
-    if (piece_a == piece_b || !treated.insert(std::minmax(piece_a, piece_b)).second) continue;
-    const auto p = crossing_on_link(landmarks_.points[a], landmarks_.points[b], landmark_cells[a], pieces);
-    if (p) points.push_back(*p);
-  }
-  for (const SurfaceBall& ball : largest_balls(pieces)) {
-    if (ball.squared_radius > surface_.min_ball_radius * surface_.min_ball_radius) points.push_back(ball.center);
+/// With every landmark on its side: each link must run through cells of its label, so that necks and tunnels are there
+/// too. What to insert is found before anything is inserted; what an earlier insertion has cured is left out.
+bool Refinement::repair_links() {
+  std::vector<MisplacedCell> misplaced;
+  for (std::uint32_t link : watch_.take_links()) {
+    const auto [a, b] = watch_.link(link);
+    const CellId cell_a = cell_of_landmark({a}), cell_b = cell_of_landmark({b});
+    constexpr int kHalvings = 16;
+    const auto place = misplaced_on_link(watch_.point(a), cell_a, watch_.point(b), cell_b, kHalvings);
+    if (place) misplaced.push_back(*place);
   }
   bool inserted = false;
-  for (const Point3& p : points) inserted |= insert_for_landmark(p, delaunay_.created().front());
+  for (const MisplacedCell& place : misplaced) {
+    if (delaunay_.alive(place.cell, place.stamp)) inserted |= insert_for_landmark(place.crossing, place.cell);
+  }
   return inserted;
 }
 
-/// Halves a link whose ends lie in different pieces until a point of it lies in a cell of the other label.
-std::optional<Point3> Refinement::crossing_on_link(Point3 a, Point3 b, CellId cell_a, const Pieces& pieces) const {
-  const std::uint32_t piece_a = pieces.of_cell[cell_a];
-  CellId hint = cell_a;
-  constexpr int kHalvings = 40;
-  for (int i = 0; i < kHalvings; ++i) {
-    const Point3 middle = midpoint(a, b);
-    hint = delaunay_.locate(middle, hint);
-    if (const auto p = crossing_beside(middle, hint)) return p;
-    (pieces.of_cell[hint] == piece_a ? a : b) = middle;
-  }
-  return std::nullopt;
+/// A cell of the other label on the link from a in one cell to b in another: halves the link until its ends lie in one
+/// cell or in neighbours.
+std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b,
+                                                                       CellId cell_b, int halvings) const {
+  const auto& near = delaunay_.neighbors(cell_a);
+  if (cell_a == cell_b || std::count(near.begin(), near.end(), cell_b) > 0 || halvings == 0) return std::nullopt;
+  const Point3 middle = midpoint(a, b);
+  const CellId cell = delaunay_.locate(middle, cell_a);
+  if (const auto p = crossing_beside(middle, cell)) return MisplacedCell{*p, cell, delaunay_.stamp(cell)};
+  if (const auto found = misplaced_on_link(a, cell_a, middle, cell, halvings - 1)) return found;
+  return misplaced_on_link(middle, cell, b, cell_b, halvings - 1);
 }
 
-std::vector<SurfaceBall> Refinement::largest_balls(const Pieces& pieces) const {
-  std::vector<SurfaceBall> largest(pieces.count - pieces.reached);
+/// With every link in place: splits the balls of pieces without landmarks, which are not real, one for each piece.
+bool Refinement::repair_pieces() {
+  if (!pieces_changed_) return false;
+  pieces_changed_ = false;
+  const Pieces pieces = find_pieces(delaunay_);
+  std::vector<bool> real(pieces.count, false);
+  std::uint32_t unknown = pieces.count;
+  for (std::uint32_t i = 0; i < watch_.size() && unknown > 0; ++i) {
+    const std::uint32_t piece = pieces.of_cell[cell_of_landmark({i})];
+    unknown -= !real[piece];
+    real[piece] = true;
+  }
+  if (unknown == 0) return false;
+  bool inserted = false;
+  for (const SurfaceBall& ball : largest_balls(pieces, real)) {
+    if (ball.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) continue;
+    inserted |= insert_for_landmark(ball.center, delaunay_.created().front());
+  }
+  return inserted;
+}
+
+/// The largest ball of each piece that is not real, the others' being empty.
+std::vector<SurfaceBall> Refinement::largest_balls(const Pieces& pieces, const std::vector<bool>& real) const {
+  std::vector<SurfaceBall> largest(pieces.count);
   for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) {
     const std::uint32_t piece = pieces.of_cell[cell];
-    if (piece == kNone || piece < pieces.reached) continue;
+    if (piece == kNone || real[piece] || !delaunay_.has_balls(cell)) continue;
     for (int i = 0; i < 4; ++i) {
       const SurfaceBall* ball = delaunay_.ball({cell, i});
-      SurfaceBall& best = largest[piece - pieces.reached];
-      if (ball != nullptr && ball->squared_radius > best.squared_radius) best = *ball;
+      if (ball != nullptr && ball->squared_radius > largest[piece].squared_radius) largest[piece] = *ball;
     }
   }
   return largest;
+}
+
+void Refinement::note_change(const Box3& box, VertexId near) {
+  watch_.note_change(box, near);
+  pieces_changed_ = true;
+}
+
+/// What changes its label lies between restricted triangles that go and others that come.
+Box3 Refinement::box_of_change(const Star& star) const {
+  Box3 box;
+  box.extend(star.apex);
+  const auto extend = [&](const std::array<VertexId, 3>& triangle) {
+    for (VertexId v : triangle) box.extend(delaunay_.point(v));
+  };
+  for (CellId cell : star.zone) {
+    for (int i = 0; i < 4; ++i) {
+      const bool goes = delaunay_.bipolar({cell, i}) && delaunay_.in_zone(delaunay_.neighbors(cell)[i]);
+      if (goes) extend(delaunay_.vertices(FacetId{cell, i}));
+    }
+  }
+  for (const Star::Tet& tet : star.tets) {
+    const bool at_beyond = tet.outer.cell == RestrictedDelaunay::kBeyond;
+    if (!at_beyond && delaunay_.label(delaunay_.mirror(tet.outer).cell) != tet.label) extend(tet.vertices);
+    for (int i = 0; i < 3; ++i) {
+      if (star.tets[tet.beside[i]].label == tet.label) continue;
+      box.extend(delaunay_.point(tet.vertices[(i + 1) % 3]));
+      box.extend(delaunay_.point(tet.vertices[(i + 2) % 3]));
+    }
+  }
+  return box;
+}
+
+/// After a change that was not meant for the surface: where new triangles wait, it has changed all the same.
+void Refinement::note_new_facets() {
+  if (watch_.empty()) return;
+  for (CellId cell : delaunay_.created()) {
+    for (int i = 0; i < 4; ++i) {
+      if (!delaunay_.bipolar({cell, i}) || delaunay_.ball({cell, i}) != nullptr) continue;
+      Box3 box;
+      for (VertexId v : delaunay_.vertices(FacetId{cell, i})) box.extend(delaunay_.point(v));
+      note_change(box, delaunay_.vertices(FacetId{cell, i})[0]);
+    }
+  }
 }
 
 }  // namespace delvox

@@ -10,7 +10,8 @@ void flood(const RestrictedDelaunay& delaunay, CellId start, std::uint32_t piece
     const CellId cell = stack.back();
     stack.pop_back();
     for (CellId next : delaunay.neighbors(cell)) {
-      if (of_cell[next] != kNone || delaunay.cell(next).label != delaunay.cell(cell).label) continue;
+      if (of_cell[next] != kNone || next == RestrictedDelaunay::kBeyond) continue;
+      if (delaunay.label(next) != delaunay.label(cell)) continue;
       of_cell[next] = piece;
       stack.push_back(next);
     }
@@ -19,14 +20,10 @@ void flood(const RestrictedDelaunay& delaunay, CellId start, std::uint32_t piece
 
 }  // namespace
 
-Pieces find_pieces(const RestrictedDelaunay& delaunay, const std::vector<CellId>& starts) {
-  Pieces pieces{std::vector<std::uint32_t>(delaunay.cell_capacity(), kNone), 0, 0};
-  for (CellId cell : starts) {
-    if (pieces.of_cell[cell] == kNone) flood(delaunay, cell, pieces.count++, pieces.of_cell);
-  }
-  pieces.reached = pieces.count;
-  for (CellId cell = 0; cell < delaunay.cell_capacity(); ++cell) {
-    if (pieces.of_cell[cell] != kNone || delaunay.cell(cell).stamp == 0) continue;
+Pieces find_pieces(const RestrictedDelaunay& delaunay) {
+  Pieces pieces{std::vector<std::uint32_t>(delaunay.cell_capacity(), kNone), 0};
+  for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
+    if (pieces.of_cell[cell] != kNone || delaunay.stamp(cell) == 0) continue;
     flood(delaunay, cell, pieces.count++, pieces.of_cell);
   }
   return pieces;

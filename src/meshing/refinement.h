@@ -8,10 +8,14 @@
 #include "delvox/core/run.h"
 #include "delvox/meshing/criteria.h"
 #include "delvox/oracle/oracle.h"
+#include "meshing/deep_lattice.h"
+#include "meshing/landmark_watch.h"
 #include "meshing/pieces.h"
 #include "meshing/run_budget.h"
 
 namespace delvox {
+
+class InteriorLattice;
 
 /// Del S under refinement with its lazy queues (book, 14.1.3): facets that may be restricted, vertices whose umbrella
 /// may have changed, and, once watched, tetrahedra that break a criterion. Entries are not withdrawn when the mesh
@@ -30,10 +34,12 @@ class Refinement {
   bool repair_topology();
 
   /// One insertion for each landmark of the oracle that lies on the wrong side of the mesh; if there is none, for each
-  /// link between pieces that should be one, and each piece without a landmark. True if anything was inserted. Not in
-  /// the book: trilinear surfaces have necks and gaps of any width, which no size field foresees.
+  /// link that does not stay on its side; if there is none, for each piece without a landmark. True if anything was
+  /// inserted. Not in the book: trilinear surfaces have necks and gaps of any width, which no size field foresees.
   bool repair_landmarks();
 
+  /// Fills the inside with a lattice where a constant bound on circumradii leaves room for one.
+  void fill_interior(const TetCriteria& criteria);
   /// From now on tetrahedra that break `criteria` are kept in a stack.
   void watch_tets(const TetCriteria& criteria);
   /// Step 7: splits the tetrahedra on the stack until it is empty, the surface kept refined throughout.
@@ -43,6 +49,8 @@ class Refinement {
   void report_unmet();
 
   const RestrictedDelaunay& delaunay() const { return delaunay_; }
+  /// The part of the mesh that is written down without being inserted, if any.
+  const std::optional<DeepLattice>& deep() const { return deep_; }
   RunBudget& budget() { return budget_; }
 
  private:
@@ -59,6 +67,12 @@ class Refinement {
     std::uint32_t stamp = 0;
     bool lost = false;  ///< on the wrong side, and nothing can be inserted for it
   };
+  /// A cell whose label is not that of the link through it, and a crossing inside its sphere.
+  struct MisplacedCell {
+    Point3 crossing;
+    CellId cell;
+    std::uint32_t stamp;
+  };
   enum class Fault { kNone, kSize, kAngle, kDeviation };
 
   // Surface (surface_refinement.cpp)
@@ -68,17 +82,29 @@ class Refinement {
   Fault fault_of(FacetId facet, const SurfaceBall& ball) const;
   bool insert_surface_point(const Point3& p, CellId hint);
   void mark_dirty(FacetId facet);
-  void commit(VertexKind kind);
   bool repair_umbrella(VertexId vertex);
 
   // Landmarks (landmark_repair.cpp)
-  bool repair_landmark(std::size_t index, CellId hint);
+  CellId cell_of_landmark(const LandmarkWatch::Due& due);
+  bool repair_landmark(const LandmarkWatch::Due& due);
   std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell) const;
   bool insert_for_landmark(const Point3& p, CellId hint);
+  bool repair_links();
   bool repair_pieces();
-  std::optional<Point3> crossing_on_link(Point3 a, Point3 b, CellId cell_a, const Pieces& pieces) const;
-  std::vector<SurfaceBall> largest_balls(const Pieces& pieces) const;
-  bool budget_left() { return budget_.go_on(delaunay_.vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
+  std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b, CellId cell_b,
+                                                 int halvings) const;
+  std::vector<SurfaceBall> largest_balls(const Pieces& pieces, const std::vector<bool>& real) const;
+  Box3 box_of_change(const Star& star) const;
+  void note_change(const Box3& box, VertexId near);
+  void note_new_facets();
+  std::size_t vertex_count() const { return delaunay_.vertex_count() + (deep_ ? deep_->points.size() : 0); }
+  bool budget_left() { return budget_.go_on(vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
+
+  // Lattice (lattice_filling.cpp)
+  const Star& evaluate(const Point3& p, CellId hint);
+  void insert_shell(InteriorLattice& lattice);
+  bool set_deep_aside();
+  void insert_deep();
 
   // Tetrahedra (tet_refinement.cpp)
   bool bad(CellId cell) const;
@@ -92,14 +118,17 @@ class Refinement {
   RunReport& report_;
   RunBudget budget_;
   RestrictedDelaunay delaunay_;
+  std::optional<DeepLattice> deep_;
 
   std::vector<WaitingFacet> facets_;  // first in, first out from next_facet_
   std::size_t next_facet_ = 0;
   std::vector<WaitingTet> tets_;      // last in, first out
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
-  Landmarks landmarks_;
+  LandmarkWatch watch_;
   std::vector<LandmarkPlace> landmark_places_;
+  CellId last_located_ = RestrictedDelaunay::kBeyond;
+  bool pieces_changed_ = true;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
   Point3 deviant_place_, stuck_place_, lost_place_;

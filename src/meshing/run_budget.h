@@ -19,6 +19,10 @@ class RunBudget {
   /// To be called once per insertion. False once a limit is reached (told in the report) and ever after.
   /// Throws Cancelled.
   bool go_on(std::size_t vertices, std::size_t waiting);
+  /// May the mesh get so many vertices?
+  bool room_for(std::size_t vertices) const {
+    return control_.limits.max_vertices == 0 || vertices <= control_.limits.max_vertices;
+  }
   bool exhausted() const { return report_.stop != StopReason::kFinished; }
 
  private:

@@ -17,25 +17,20 @@ void Refinement::insert_seeds() {
   const Seeds seeds = oracle_.seeds([this](const Point3& p) { return surface_.size(p); });
   if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
   report_.components = seeds.components;
-  landmarks_ = oracle_.landmarks([this](const Point3& p) { return surface_.size(p); });
+  watch_ = LandmarkWatch(oracle_.landmarks([this](const Point3& p) { return surface_.size(p); }));
   delaunay_.insert_seeds(seeds.points);
   enqueue_created();
 }
 
 void Refinement::enqueue_created() {
   for (CellId cell : delaunay_.created()) {
-    const Cell& data = delaunay_.cell(cell);
-    if (tet_criteria_ != nullptr && data.label != 0 && bad(cell)) tets_.push_back({cell, data.stamp});
+    const std::uint32_t stamp = delaunay_.stamp(cell);
+    if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) tets_.push_back({cell, stamp});
     for (int i = 0; i < 4; ++i) {
       const FacetId facet{cell, i};
-      if (delaunay_.bipolar(facet) && delaunay_.ball(facet) == nullptr) facets_.push_back({facet, data.stamp});
+      if (delaunay_.bipolar(facet) && delaunay_.ball(facet) == nullptr) facets_.push_back({facet, stamp});
     }
   }
-}
-
-void Refinement::commit(VertexKind kind) {
-  delaunay_.commit(kind);
-  enqueue_created();
 }
 
 void Refinement::refine_surface() {
@@ -72,7 +67,9 @@ bool Refinement::treat_facet(FacetId facet) {
 bool Refinement::remove_interior_vertex_of(FacetId facet) {
   for (VertexId vertex : delaunay_.vertices(facet)) {
     if (delaunay_.kind(vertex) != VertexKind::kInterior) continue;
+    if (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep();
     delaunay_.remove(vertex);
+    note_new_facets();
     ++report_.removals;
     enqueue_created();
     return true;
@@ -96,18 +93,22 @@ Refinement::Fault Refinement::fault_of(FacetId facet, const SurfaceBall& ball) c
 }
 
 bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
-  const Star& star = delaunay_.evaluate(p, hint);
+  const Star& star = evaluate(p, hint);
   if (star.duplicate) {
     ++stuck_;
     stuck_place_ = p;
     return false;
   }
   for (CellId cell : star.zone) {
+    if (!delaunay_.has_balls(cell)) continue;
     for (int i = 0; i < 4; ++i) {
       if (delaunay_.ball({cell, i}) != nullptr) mark_dirty({cell, i});
     }
   }
-  commit(VertexKind::kSurface);
+  const Box3 changing = watch_.empty() ? Box3{} : box_of_change(star);
+  const VertexId inserted = delaunay_.commit(VertexKind::kSurface);
+  if (!watch_.empty()) note_change(changing, inserted);
+  enqueue_created();
   return true;
 }
 
@@ -125,8 +126,8 @@ bool Refinement::repair_topology() {
   bool inserted = false;
   std::vector<VertexId> round;
   round.swap(dirty_);
-  for (VertexId vertex : round) {
-    is_dirty_[vertex] = 0;
+  for (VertexId vertex : round) is_dirty_[vertex] = 0;
+  for (VertexId vertex : without_disk(delaunay_, round)) {
     if (!budget_left()) return inserted;
     inserted |= repair_umbrella(vertex);
   }

@@ -16,25 +16,21 @@ double shortest_squared_edge(const RestrictedDelaunay& delaunay, CellId cell) {
   return shortest;
 }
 
-/// An edge of the zone's boundary and the star tet on one side of it.
-struct StarEdge {
-  VertexId low, high;
-  std::uint32_t tet;
-};
-
 }  // namespace
 
 void Refinement::watch_tets(const TetCriteria& criteria) {
   tet_criteria_ = &criteria;
   tets_.clear();
   for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) {
-    const Cell& data = delaunay_.cell(cell);
-    if (data.stamp != 0 && data.label != 0 && bad(cell)) tets_.push_back({cell, data.stamp});
+    const std::uint32_t stamp = delaunay_.stamp(cell);
+    if (stamp != 0 && delaunay_.label(cell) != 0 && !delaunay_.placeholder(cell) && bad(cell)) {
+      tets_.push_back({cell, stamp});
+    }
   }
 }
 
 bool Refinement::bad(CellId cell) const {
-  const Circumsphere& sphere = delaunay_.cell(cell).sphere;
+  const Circumsphere& sphere = delaunay_.sphere(cell);
   const double size = tet_criteria_->cell_size(sphere.center);
   if (sphere.squared_radius > size * size * (1 - 1e-12)) return true;
   const double bound = tet_criteria_->radius_edge * tet_criteria_->radius_edge * (1 - 1e-9);
@@ -54,12 +50,12 @@ void Refinement::refine_tets() {
 }
 
 void Refinement::split_tet(CellId cell) {
-  const Point3 z = delaunay_.cell(cell).sphere.center;
-  const Star& star = delaunay_.evaluate(z, cell);
+  const Point3 z = delaunay_.sphere(cell).center;
+  const Star& star = evaluate(z, cell);
   SurfaceBall ball;
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
   if (star.duplicate || find_encroached_ball(star, ball) || find_new_ball(star, ball)) {
-    if (!star.duplicate && insert_surface_point(ball.center, cell)) {
+    if (!star.duplicate && insert_surface_point(ball.center, star.zone.front())) {
       ++report_.surface_insertions;
     } else {
       ++stuck_;
@@ -68,13 +64,15 @@ void Refinement::split_tet(CellId cell) {
     }
     return;
   }
-  commit(VertexKind::kInterior);  // 7(b)
+  delaunay_.commit(VertexKind::kInterior);  // 7(b)
+  enqueue_created();
   ++report_.interior_insertions;
 }
 
 /// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z.
 bool Refinement::find_encroached_ball(const Star& star, SurfaceBall& largest) const {
   for (CellId cell : star.zone) {
+    if (!delaunay_.has_balls(cell)) continue;
     for (int i = 0; i < 4; ++i) {
       const SurfaceBall* ball = delaunay_.ball({cell, i});
       if (ball == nullptr || ball->squared_radius <= largest.squared_radius) continue;
@@ -94,25 +92,17 @@ bool Refinement::find_new_ball(const Star& star, SurfaceBall& largest) const {
   bool uniform = true;
   for (const Star::Tet& tet : star.tets) {
     uniform &= tet.label == star.tets.front().label;
-    const Cell& outer = delaunay_.cell(tet.outer.cell);
-    if (outer.label == tet.label || delaunay_.bipolar(tet.outer)) continue;
-    consider(outer.sphere, outer.label, tet.sphere, tet.label, delaunay_.point(tet.vertices[0]));
+    const CellId outer = tet.outer.cell;
+    if (delaunay_.label(outer) == tet.label || delaunay_.bipolar(tet.outer)) continue;
+    consider(delaunay_.sphere(outer), delaunay_.label(outer), tet.sphere, tet.label, delaunay_.point(tet.vertices[0]));
   }
   if (!uniform) {
-    std::vector<StarEdge> edges;
     for (std::uint32_t t = 0; t < star.tets.size(); ++t) {
-      for (int i = 0; i < 3; ++i) {
-        const auto [low, high] = std::minmax(star.tets[t].vertices[i], star.tets[t].vertices[(i + 1) % 3]);
-        edges.push_back({low, high, t});
+      const Star::Tet& a = star.tets[t];
+      for (std::uint32_t other : a.beside) {
+        const Star::Tet& b = star.tets[other];
+        if (t < other && a.label != b.label) consider(a.sphere, a.label, b.sphere, b.label, star.apex);
       }
-    }
-    std::sort(edges.begin(), edges.end(), [](const StarEdge& a, const StarEdge& b) {
-      return a.low != b.low ? a.low < b.low : a.high != b.high ? a.high < b.high : a.tet < b.tet;
-    });
-    for (std::size_t i = 0; i + 1 < edges.size(); i += 2) {
-      const Star::Tet& a = star.tets[edges[i].tet];
-      const Star::Tet& b = star.tets[edges[i + 1].tet];
-      if (a.label != b.label) consider(a.sphere, a.label, b.sphere, b.label, star.apex);
     }
   }
   return largest.squared_radius > 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 namespace delvox {
 namespace {
@@ -9,10 +10,11 @@ namespace {
 using LinkEdge = std::array<VertexId, 2>;
 
 /// Do the edges form exactly one cycle?
-bool is_one_cycle(std::vector<LinkEdge> edges) {
+bool is_one_cycle(std::span<const LinkEdge> edges) {
   if (edges.empty()) return true;
   // Both directions of each edge, sorted by their first end: in a cycle every vertex comes up exactly twice.
-  std::vector<LinkEdge> half_edges;
+  thread_local std::vector<LinkEdge> half_edges;
+  half_edges.clear();
   for (const LinkEdge& e : edges) {
     half_edges.push_back(e);
     half_edges.push_back({e[1], e[0]});
@@ -37,6 +39,39 @@ bool is_one_cycle(std::vector<LinkEdge> edges) {
   return length == edges.size();
 }
 
+/// The link edges of all vertices, vertex after vertex.
+class Links {
+ public:
+  explicit Links(const RestrictedDelaunay& delaunay) : first_(delaunay.vertex_capacity() + 1, 0) {
+    std::vector<std::array<VertexId, 3>> triangles;
+    for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
+      if (delaunay.stamp(cell) == 0 || !delaunay.has_balls(cell)) continue;
+      for (int i = 0; i < 4; ++i) {
+        if (delaunay.label(cell) > delaunay.label(delaunay.neighbors(cell)[i])) {
+          triangles.push_back(delaunay.vertices(FacetId{cell, i}));
+        }
+      }
+    }
+    for (const auto& triangle : triangles) {
+      for (VertexId v : triangle) ++first_[v + 1];
+    }
+    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    edges_.resize(3 * triangles.size());
+    for (const auto& t : triangles) {
+      for (int i = 0; i < 3; ++i) edges_[next[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
+    }
+  }
+
+  std::span<const LinkEdge> of(VertexId vertex) const {
+    return {edges_.data() + first_[vertex], edges_.data() + first_[vertex + 1]};
+  }
+
+ private:
+  std::vector<std::uint32_t> first_;
+  std::vector<LinkEdge> edges_;
+};
+
 }  // namespace
 
 Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
@@ -46,7 +81,7 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
     for (int i = 0; i < 4; ++i) {
       const CellId neighbor = delaunay.neighbors(cell)[i];
       // Each facet is met from both of its cells: take it from the one with the larger label.
-      if (delaunay.cell(cell).label <= delaunay.cell(neighbor).label) continue;
+      if (delaunay.label(cell) <= delaunay.label(neighbor)) continue;
       const auto corners = delaunay.vertices(FacetId{cell, i});
       const auto own = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
       if (own == 3) continue;
@@ -56,6 +91,20 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
   }
   umbrella.disk = is_one_cycle(link);
   return umbrella;
+}
+
+std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
+  constexpr std::size_t kSweepPays = 16;  // a sweep costs about as much as walking around a vertex in sixteen
+  std::vector<VertexId> result;
+  if (vertices.size() * kSweepPays < delaunay.vertex_capacity()) {
+    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(result),
+                 [&](VertexId v) { return !find_umbrella(delaunay, v).disk; });
+    return result;
+  }
+  const Links links(delaunay);
+  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(result),
+               [&](VertexId v) { return !is_one_cycle(links.of(v)); });
+  return result;
 }
 
 }  // namespace delvox

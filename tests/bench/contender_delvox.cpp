@@ -13,7 +13,7 @@ BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const Bench
   DelTetSurfOptions options;
   options.surface.size = criteria.size;
   options.surface.min_angle_degrees = criteria.angle_degrees;
-  options.surface.min_ball_radius = 0.1 * std::min({spacing.x, spacing.y, spacing.z});  // as the program's default
+  options.surface.min_ball_radius = 0.001 * std::min({spacing.x, spacing.y, spacing.z});  // the program's default
   options.tets.cell_size = criteria.cell_size;
   options.tets.radius_edge = criteria.radius_edge;
 

@@ -30,7 +30,7 @@ inline int signed_volume(const Point3& a, const Point3& b, const Point3& c, cons
 template <class Visit>
 void for_each_cell(const RestrictedDelaunay& delaunay, const Visit& visit) {
   for (CellId cell = 0; cell < delaunay.cell_capacity(); ++cell) {
-    if (delaunay.cell(cell).stamp != 0) visit(cell);
+    if (delaunay.stamp(cell) != 0) visit(cell);
   }
 }
 
@@ -48,22 +48,23 @@ inline std::size_t used_vertices(const RestrictedDelaunay& delaunay) {
 inline void expect_delaunay(const RestrictedDelaunay& delaunay) {
   std::size_t violations = 0, flat = 0, broken = 0;
   for_each_cell(delaunay, [&](CellId cell) {
+    if (!finite(delaunay, cell)) return;
     const auto& v = delaunay.vertices(cell);
     for (int i = 0; i < 4; ++i) {
+      if (!finite(delaunay, delaunay.neighbors(cell)[i])) continue;
       const FacetId mirror = delaunay.mirror({cell, i});
       auto own = delaunay.vertices(FacetId{cell, i}), other = delaunay.vertices(mirror);
       std::sort(own.begin(), own.end());
       std::sort(other.begin(), other.end());
-      broken += delaunay.cell(mirror.cell).stamp == 0 || delaunay.neighbors(mirror.cell)[mirror.index] != cell ||
+      broken += delaunay.stamp(mirror.cell) == 0 || delaunay.neighbors(mirror.cell)[mirror.index] != cell ||
                 own != other;
     }
-    if (!finite(delaunay, cell)) return;
     std::array<ExactKernel::Point_3, 4> p;
     for (int i = 0; i < 4; ++i) p[i] = cgal(delaunay.point(v[i]));
     flat += CGAL::orientation(p[0], p[1], p[2], p[3]) != CGAL::POSITIVE;
     for (int i = 0; i < 4; ++i) {
+      if (!finite(delaunay, delaunay.neighbors(cell)[i])) continue;
       const FacetId mirror = delaunay.mirror({cell, i});
-      if (!finite(delaunay, mirror.cell)) continue;
       const auto opposite = cgal(delaunay.point(delaunay.vertices(mirror.cell)[mirror.index]));
       violations += CGAL::side_of_oriented_sphere(p[0], p[1], p[2], p[3], opposite) == CGAL::ON_POSITIVE_SIDE;
     }
@@ -77,20 +78,20 @@ inline void expect_delaunay(const RestrictedDelaunay& delaunay) {
 inline void expect_true_cells(const RestrictedDelaunay& delaunay, const Oracle& oracle) {
   std::size_t tested = 0;
   for_each_cell(delaunay, [&](CellId c) {
-    const Cell& cell = delaunay.cell(c);
+    const Circumsphere& found = delaunay.sphere(c);
     if (!finite(delaunay, c)) {
-      EXPECT_EQ(cell.label, 0);
+      EXPECT_EQ(delaunay.label(c), 0);
       return;
     }
     const auto& v = delaunay.vertices(c);
     const Circumsphere sphere =
         circumsphere(delaunay.point(v[3]), delaunay.point(v[2]), delaunay.point(v[0]), delaunay.point(v[1]));
-    EXPECT_LE(distance(sphere.center, cell.sphere.center), 2e-9 * std::sqrt(sphere.squared_radius) + 1e-15);
-    EXPECT_NEAR(cell.sphere.squared_radius / sphere.squared_radius, 1, 2e-9);
-    EXPECT_EQ(cell.label, oracle.label(cell.sphere.center));
+    EXPECT_LE(distance(sphere.center, found.center), 2e-9 * std::sqrt(sphere.squared_radius) + 1e-15);
+    EXPECT_NEAR(found.squared_radius / sphere.squared_radius, 1, 2e-9);
+    EXPECT_EQ(delaunay.label(c), oracle.label(found.center));
     for (VertexId vertex : v) {
       if (delaunay.kind(vertex) == VertexKind::kCorner) {
-        EXPECT_EQ(cell.label, 0);
+        EXPECT_EQ(delaunay.label(c), 0);
       }
     }
     ++tested;
@@ -125,6 +126,7 @@ inline std::size_t expect_true_balls(const RestrictedDelaunay& delaunay, const S
   std::size_t count = 0;
   for_each_cell(delaunay, [&](CellId c) {
     for (int i = 0; i < 4; ++i) {
+      if (!finite(delaunay, c) || !finite(delaunay, delaunay.neighbors(c)[i])) continue;
       const FacetId facet{c, i}, mirror = delaunay.mirror(facet);
       const SurfaceBall* ball = delaunay.ball(facet);
       EXPECT_EQ(ball, delaunay.ball(mirror));
@@ -132,7 +134,7 @@ inline std::size_t expect_true_balls(const RestrictedDelaunay& delaunay, const S
       ++count;
       EXPECT_TRUE(delaunay.bipolar(facet));
       EXPECT_NEAR(oracle.value(ball->center), 0, 1e-9);
-      const Point3 a = delaunay.cell(c).sphere.center, b = delaunay.cell(mirror.cell).sphere.center;
+      const Point3 a = delaunay.sphere(c).center, b = delaunay.sphere(mirror.cell).center;
       // Circumcentres of needles are right to nine digits of their own radius.
       const double tolerance = 1e-8 * (1 + distance(a, ball->center) + distance(b, ball->center));
       EXPECT_LE(distance_to_segment(ball->center, a, b), tolerance);

@@ -17,6 +17,12 @@ std::vector<Point3> random_points(int count) {
   return points;
 }
 
+std::vector<Point3> in_spatial_order(const std::vector<Point3>& points) {
+  std::vector<Point3> ordered;
+  for (std::uint32_t i : spatial_order(points)) ordered.push_back(points[i]);
+  return ordered;
+}
+
 std::vector<Point3> sorted(std::vector<Point3> points) {
   std::sort(points.begin(), points.end(), [](const Point3& a, const Point3& b) {
     return a.x != b.x ? a.x < b.x : a.y != b.y ? a.y < b.y : a.z < b.z;

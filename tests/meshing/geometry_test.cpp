@@ -135,7 +135,7 @@ class GeometryOfTurnedVolumes : public testing::TestWithParam<const char*> {
     return std::string(GetParam()) == "torus" ? 0.2 * half_extent : 0.4 * 0.4 / 0.75 * half_extent;
   }
 
-  static constexpr double kSize = 1;
+  static constexpr double kSize = 0.9;
   Volume volume_ = make_phantom(GetParam(), test::oblique_image());
   SurfaceMesh reference_ = mesh_at(volume_, 0, kSize);
 };

@@ -131,7 +131,7 @@ TEST(RunControl, ProgressIsASignOfLifeAFewTimesASecond) {
   EXPECT_GE(calls, 2u);
   EXPECT_LE(static_cast<double>(calls), 10 * seconds + 1);
   EXPECT_TRUE(grows);
-  EXPECT_TRUE(stages.count("tets"));
+  EXPECT_TRUE(stages.count("interior"));
   EXPECT_FALSE(stages.count(""));
 }
 

@@ -100,6 +100,30 @@ TEST_F(CliMeshing, TetsFindsASizeThatGivesAboutThatMany) {
   EXPECT_NEAR(report["check"]["statistics"]["tets"].get<double>(), 20000, 0.04 * 20000);
 }
 
+// 125 equal balls, each below the default of --min-component at the first guess of a size.
+TEST_F(CliMeshing, TetsFindsASizeWhereTheFirstGuessTakesEveryComponentOut) {
+  VolumeHeader header;
+  header.dims = {40, 40, 40};
+  std::vector<float> samples;
+  const auto offset = [](int i) { return i % 8 - 3.5; };
+  for (int k = 0; k < 40; ++k) {
+    for (int j = 0; j < 40; ++j) {
+      for (int i = 0; i < 40; ++i) samples.push_back(float(2.7 - norm(Vector3{offset(i), offset(j), offset(k)})));
+    }
+  }
+  const std::string volume = folder_ / "balls.nii";
+  write_volume(Volume(header, samples), volume);
+  const Outcome outcome = run_delvox({"tet", volume, "--iso", "0", "--tets", "2400", "-o", folder_ / "mesh.vtu"});
+  EXPECT_EQ(outcome.code, 0);
+  EXPECT_NE(outcome.err.find("all components are below"), std::string::npos) << outcome.err;
+  const json report = run({"tet", volume, "--iso", "0", "--tets", "6000", "-o", folder_ / "mesh.vtu"});
+  EXPECT_NEAR(report["check"]["statistics"]["tets"].get<double>(), 6000, 0.04 * 6000);
+  EXPECT_EQ(report["components"]["kept"], 125);
+  // With a --min-component of the user's own no size helps.
+  EXPECT_EQ(run_delvox({"tet", volume, "--iso", "0", "--tets", "6000", "--min-component", "200", "-o",
+                        folder_ / "mesh.vtu", "--quiet"}).code, 4);
+}
+
 TEST_F(CliMeshing, TheOtherFrameTurnsXAndY) {
   const std::string volume = phantom("sphere", {"--center", "10,20,30"});
   const std::string ras = folder_ / "ras.vtu", lps = folder_ / "lps.vtu";

@@ -14,39 +14,6 @@ namespace {
 
 using test::TemporaryFolder;
 
-TEST(FindSize, EndsWithinThreePercentOnACubeLaw) {
-  const auto mesh_at = [](double size) { return static_cast<std::size_t>(1e6 / std::pow(size, 3)); };
-  const SizeSearch found = find_size(50000, 10, mesh_at);
-  EXPECT_NEAR(static_cast<double>(mesh_at(found.size)), 50000, 0.031 * 50000);
-  EXPECT_LE(found.tries, 2);
-}
-
-TEST(FindSize, EndsWithinThreePercentWhereTheSurfaceDominates) {
-  const auto mesh_at = [](double size) {
-    return static_cast<std::size_t>(1e6 / std::pow(size, 3) + 4e5 / std::pow(size, 2));
-  };
-  const SizeSearch found = find_size(50000, 10, mesh_at);
-  EXPECT_NEAR(static_cast<double>(mesh_at(found.size)), 50000, 0.031 * 50000);
-  EXPECT_LE(found.tries, 4);
-}
-
-TEST(FindSize, ReturnsTheClosestTryWhereCountsNeverMatch) {
-  const auto mesh_at = [](double size) -> std::size_t { return size > 3 ? 1000 : 9000; };
-  const SizeSearch found = find_size(5000, 4, mesh_at);
-  EXPECT_EQ(found.tries, 5);
-  EXPECT_EQ(mesh_at(found.size), 9000u);
-}
-
-TEST(FindSize, EndsAtOnceWhenALimitStoppedTheRun) {
-  int runs = 0;
-  const SizeSearch found = find_size(5000, 4, [&](double) -> std::optional<std::size_t> {
-    ++runs;
-    return std::nullopt;
-  });
-  EXPECT_EQ(runs, 1);
-  EXPECT_EQ(found.size, 4);
-}
-
 TEST(ParseSize, TakesPositiveNumbersOnly) {
   EXPECT_EQ(parse_size("2.5", "--size", Frame::kRas).maximum(), 2.5);
   for (const char* text : {"", "0", "-1", "2mm", "nan", "1e999", "no_such_file.nii"}) {

@@ -1,0 +1,226 @@
+#include "meshing/interior_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/hash.h"
+#include "meshing/lattice_rows.h"
+
+namespace delvox {
+namespace {
+
+/// Edge of the lattice's cubes in units of the bound on circumradii, of which a tetrahedron then uses 0.81: with 1.78 it
+/// would use all of it, but the lattice would be much coarser than what refinement makes of the rest.
+constexpr double kCube = 1.45;
+/// A tet's circumsphere reaches 0.654 cubes from its corners at most: no vertex that far from all sites disturbs it.
+constexpr double kClearance = 0.68;
+constexpr double kJitter = 0.01;
+constexpr double kMostSites = 1 << 28;
+/// Cubes all around, so that a site inside has all of its neighbours.
+constexpr int kRim = 2;
+
+}  // namespace
+
+InteriorLattice::InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size) : cube_(kCube * cell_size) {
+  if (!lay_out(delaunay)) return;
+  find_inside(delaunay);
+  block_near_surface(delaunay);
+  find_depths();
+}
+
+bool InteriorLattice::lay_out(const RestrictedDelaunay& delaunay) {
+  Box3 box;
+  for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
+    if (delaunay.kind(v) == VertexKind::kSurface) box.extend(delaunay.point(v));
+  }
+  if (box.empty()) return false;
+  origin_ = box.min - Vector3{kRim * cube_, kRim * cube_, kRim * cube_};
+  double sites = 2;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double count = std::ceil((box.max[axis] - box.min[axis]) / cube_) + 2 * kRim;
+    sites *= count;
+    if (sites > kMostSites) return false;
+    counts_[axis] = static_cast<std::int32_t>(count);
+  }
+  stride_ = {1, static_cast<Site>(counts_[0]), static_cast<Site>(counts_[0] * counts_[1])};
+  cubes_ = stride_[2] * counts_[2];
+  state_.assign(2 * std::size_t{cubes_}, kBlocked);
+  return true;
+}
+
+void InteriorLattice::find_inside(const RestrictedDelaunay& delaunay) {
+  for (const bool centre : {false, true}) {
+    const LatticeRows rows{origin_, cube_, centre ? 0.5 : 0.0, counts_[1], counts_[2]};
+    const RowCrossings found = find_row_crossings(delaunay, rows);
+    for (Site row = 0; row + 1 < found.first.size(); ++row) {
+      const Site row_start = (centre ? cubes_ : 0) + row * stride_[1];
+      for (std::uint32_t c = found.first[row]; c + 1 < found.first[row + 1]; ++c) {
+        if (found.crossings[c].label == 0) continue;
+        const auto place = [&](double x) { return (x - origin_.x) / cube_ - (centre ? 0.5 : 0.0); };
+        const auto end = static_cast<Site>(std::ceil(place(found.crossings[c + 1].x)));
+        for (auto i = static_cast<Site>(std::ceil(place(found.crossings[c].x))); i < end; ++i) {
+          inside_.push_back(row_start + i);
+          labels_.push_back(found.crossings[c].label);
+          state_[row_start + i] = kDeep;
+        }
+      }
+    }
+  }
+}
+
+/// True if that blocked any site.
+bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
+  bool any = false;
+  for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
+    if (delaunay.kind(v) == VertexKind::kSurface) any |= block_around(delaunay.point(v), kClearance * cube_);
+  }
+  for (CellId cell = 0; cell < delaunay.cell_capacity(); ++cell) {
+    for (int i = 0; i < 4 && delaunay.has_balls(cell); ++i) {
+      const SurfaceBall* ball = delaunay.ball({cell, i});
+      if (ball == nullptr || delaunay.label(cell) == 0) continue;
+      any |= block_around(ball->center, std::sqrt(ball->squared_radius));
+    }
+  }
+  return any;
+}
+
+bool InteriorLattice::block_around(const Point3& p, double radius) {
+  bool any = false;
+  const double reach = radius + 2 * kJitter * cube_;
+  for (const bool centre : {false, true}) {
+    const auto range = [&](int axis, double half_width) {
+      const double place = (p[axis] - origin_[axis]) / cube_ - (centre ? 0.5 : 0.0);
+      return std::array{std::max(0, static_cast<std::int32_t>(std::ceil(place - half_width / cube_))),
+                        std::min(counts_[axis] - 1, static_cast<std::int32_t>(std::floor(place + half_width / cube_)))};
+    };
+    const auto [k0, k1] = range(2, reach);
+    const auto [j0, j1] = range(1, reach);
+    for (std::int32_t k = k0; k <= k1; ++k) {
+      for (std::int32_t j = j0; j <= j1; ++j) {
+        const double dy = coordinate(1, j, centre) - p.y, dz = coordinate(2, k, centre) - p.z;
+        const double left = reach * reach - dy * dy - dz * dz;
+        if (left < 0) continue;
+        const auto [i0, i1] = range(0, std::sqrt(left));
+        const Site row = (centre ? cubes_ : 0) + k * stride_[2] + j * stride_[1];
+        for (std::int32_t i = i0; i <= i1; ++i) {
+          any |= state_[row + i] != kBlocked;
+          state_[row + i] = kBlocked;
+        }
+      }
+    }
+  }
+  return any;
+}
+
+Point3 InteriorLattice::point(Site site) const {
+  const bool centre = is_centre(site);
+  const Site cube = centre ? site - cubes_ : site;
+  std::uint64_t hash = site;
+  Point3 p;
+  for (int axis = 0; axis < 3; ++axis) {
+    hash = mix_hash(hash);
+    p[axis] = coordinate(axis, cube / stride_[axis] % counts_[axis], centre) +
+              kJitter * cube_ * (2 * unit_interval(hash) - 1);
+  }
+  return p;
+}
+
+/// Is one of the 14 sites around it at that depth?
+bool InteriorLattice::touches(int depth, Site site) const {
+  for (Site step : stride_) {
+    if (state_[site - step] == depth || state_[site + step] == depth) return true;
+  }
+  // The other kind's sites around a centre are its cube's corners, those around a corner lie the other way.
+  const Site low = is_centre(site) ? site - cubes_ : site + cubes_ - stride_[0] - stride_[1] - stride_[2];
+  for (int corner = 0; corner < 8; ++corner) {
+    const Site other = low + (corner & 1) * stride_[0] + (corner >> 1 & 1) * stride_[1] + (corner >> 2) * stride_[2];
+    if (state_[other] == depth) return true;
+  }
+  return false;
+}
+
+void InteriorLattice::find_depths() {
+  for (int depth = kBlocked; depth + 1 < kDeep; ++depth) {
+    for (Site s : inside_) {
+      if (is_deep(s) && touches(depth, s)) state_[s] = static_cast<std::uint8_t>(depth + 1);
+    }
+  }
+  std::vector<ShellSite> known;
+  known.swap(shell_);
+  deep_.clear();
+  auto next_known = known.begin();
+  for (Site s : inside_) {
+    if (is_deep(s)) deep_.push_back(s);
+    if (is_deep(s) || state_[s] == kBlocked) continue;
+    while (next_known != known.end() && next_known->site < s) ++next_known;
+    const bool is_known = next_known != known.end() && next_known->site == s;
+    shell_.push_back({s, is_known ? next_known->vertex : kNone});
+  }
+}
+
+bool InteriorLattice::block_removed(const RestrictedDelaunay& delaunay) {
+  bool any = false;
+  for (const ShellSite& shell : shell_) {
+    const bool gone = delaunay.kind(shell.vertex) != VertexKind::kInterior;
+    if (gone) state_[shell.site] = kBlocked;
+    any |= gone;
+  }
+  return any;
+}
+
+bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
+  const bool removed = block_removed(delaunay), nearer = block_near_surface(delaunay);
+  if (!removed && !nearer) return false;
+  for (Site s : inside_) {
+    if (state_[s] != kBlocked) state_[s] = kDeep;
+  }
+  find_depths();
+  return true;
+}
+
+/// The tets along the edge from a site to the next of its kind: one for each pair of neighbours in the ring of four
+/// sites of the other kind around the edge's middle.
+std::array<InteriorLattice::Tet, 4> InteriorLattice::tets_along(Site site, int axis) const {
+  const Site next = site + stride_[axis], u = stride_[(axis + 1) % 3], v = stride_[(axis + 2) % 3];
+  const Site low = is_centre(site) ? next - cubes_ : site + cubes_ - u - v;
+  const std::array<Site, 4> ring{low, low + u, low + u + v, low + v};
+  std::array<Tet, 4> tets;
+  for (int i = 0; i < 4; ++i) tets[i] = {site, next, ring[i], ring[(i + 1) % 4]};
+  return tets;
+}
+
+template <class Visit>
+void InteriorLattice::for_each_deep_tet(const Visit& visit) const {
+  for (Site s : deep_) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const Site start : {s, s - stride_[axis]}) {
+        for (const Tet& tet : tets_along(start, axis)) {
+          // Each is met from all of its deep corners.
+          const bool first = std::none_of(tet.begin(), tet.end(), [&](Site c) { return c < s && is_deep(c); });
+          if (first) visit(tet);
+        }
+      }
+    }
+  }
+}
+
+DeepLattice InteriorLattice::deep() const {
+  DeepLattice result;
+  std::vector<std::uint32_t> number(state_.size());
+  for (const ShellSite& shell : shell_) {
+    number[shell.site] = static_cast<std::uint32_t>(result.shell.size());
+    result.shell.push_back(shell.vertex);
+  }
+  for (std::size_t i = 0; i < inside_.size(); ++i) {
+    if (!is_deep(inside_[i])) continue;
+    number[inside_[i]] = static_cast<std::uint32_t>(shell_.size() + result.points.size());
+    result.points.push_back(point(inside_[i]));
+    result.labels.push_back(labels_[i]);
+  }
+  for_each_deep_tet([&](const Tet& tet) {
+    result.tets.push_back({number[tet[0]], number[tet[1]], number[tet[2]], number[tet[3]]});
+  });
+  return result;
+}
+
+}  // namespace delvox

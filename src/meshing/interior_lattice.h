@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "delaunay/restricted_delaunay.h"
+#include "delvox/core/geometry.h"
+#include "meshing/deep_lattice.h"
+
+namespace delvox {
+
+/// A body-centred cubic lattice inside the restricted triangles, clear of their vertices and balls, jittered by a
+/// hundredth of its spacing. Its Delaunay tetrahedra have dihedral angles of 60 and 90 degrees, and no other lattice
+/// site comes near their circumspheres: most of a body needs neither refinement nor insertion. Not in the book.
+///
+/// Sites near the surface (the shell) are to be inserted. Deep ones, at least four steps from the nearest site that is
+/// blocked or outside, can be written down: the tets with a deep corner are Delaunay whatever lies beyond the shell.
+class InteriorLattice {
+ public:
+  using Site = std::uint32_t;
+
+  /// A site to be inserted, and its vertex, kNone until it is.
+  struct ShellSite {
+    Site site;
+    VertexId vertex = kNone;
+  };
+
+  /// pre: delaunay has the balls of all its restricted triangles. `cell_size`: bound on circumradii. Has no sites if the
+  /// box around the surface would hold too many.
+  InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size);
+
+  std::size_t site_count() const { return shell_.size() + deep_.size(); }
+  Point3 point(Site site) const;
+  std::vector<ShellSite>& shell() { return shell_; }
+  /// Blocks the sites whose vertices are gone and those near vertices that the surface has got since, and moves the shell
+  /// inward there. False if there is none.
+  bool adapt(const RestrictedDelaunay& delaunay);
+  /// The tets with at least one deep corner. pre: all of shell() have their vertices.
+  DeepLattice deep() const;
+
+ private:
+  /// State of a site: steps from the nearest that is blocked or outside. With a shell of three, step 2 of DelTetSurf can
+  /// remove a site beside the surface without touching the tets that have deep neighbours.
+  enum Depth : std::uint8_t { kBlocked = 0, kDeep = 4 };
+  using Tet = std::array<Site, 4>;
+
+  bool lay_out(const RestrictedDelaunay& delaunay);
+  void find_inside(const RestrictedDelaunay& delaunay);
+  bool block_near_surface(const RestrictedDelaunay& delaunay);
+  bool block_around(const Point3& p, double radius);
+  bool block_removed(const RestrictedDelaunay& delaunay);
+  void find_depths();
+  bool touches(int depth, Site site) const;
+  std::array<Tet, 4> tets_along(Site site, int axis) const;
+  template <class Visit>
+  void for_each_deep_tet(const Visit& visit) const;
+
+  bool is_deep(Site site) const { return state_[site] == kDeep; }
+  /// Sites are numbered along x, y, z: first the corners of all cubes, then their centres.
+  bool is_centre(Site site) const { return site >= cubes_; }
+  double coordinate(int axis, std::int64_t index, bool centre) const {
+    return origin_[axis] + (static_cast<double>(index) + (centre ? 0.5 : 0.0)) * cube_;
+  }
+
+  Point3 origin_;
+  double cube_;
+  std::array<std::int32_t, 3> counts_{};
+  std::array<Site, 3> stride_{};
+  Site cubes_ = 0;
+  std::vector<std::uint8_t> state_;
+  std::vector<Site> inside_;      // ascending
+  std::vector<Label> labels_;     // of inside_
+  std::vector<ShellSite> shell_;  // ascending
+  std::vector<Site> deep_;        // ascending
+};
+
+}  // namespace delvox

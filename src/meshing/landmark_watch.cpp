@@ -1,0 +1,105 @@
+#include "meshing/landmark_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace delvox {
+namespace {
+
+/// Groups 0..keys.size()-1 by their keys, each below `groups`, keeping their order: first[g] is where group g begins.
+void group_by(const std::vector<std::size_t>& keys, std::size_t groups, std::vector<std::uint32_t>& first,
+              std::vector<std::uint32_t>& members) {
+  first.assign(groups + 1, 0);
+  for (std::size_t key : keys) ++first[key + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<std::uint32_t> next(first.begin(), first.end() - 1);
+  members.resize(keys.size());
+  for (std::uint32_t i = 0; i < keys.size(); ++i) members[next[keys[i]]++] = i;
+}
+
+}  // namespace
+
+LandmarkWatch::LandmarkWatch(Landmarks landmarks)
+    : points_(std::move(landmarks.points)), links_(std::move(landmarks.links)) {
+  for (const auto& [a, b] : links_) reach_ = std::max(reach_, distance(points_[a], points_[b]));
+  std::vector<std::size_t> ends;
+  for (const auto& [a, b] : links_) ends.insert(ends.end(), {a, b});
+  group_by(ends, points_.size(), first_link_, links_of_);
+  for (std::uint32_t& end : links_of_) end /= 2;
+  waits_.assign(links_.size(), false);
+  if (!points_.empty()) sort_into_cubes();
+}
+
+void LandmarkWatch::sort_into_cubes() {
+  for (const Point3& p : points_) box_.extend(p);
+  // Landmarks lie on the surface's voxels: cubes of two links' width hold a handful each.
+  const double most_cubes = 4.0 * static_cast<double>(points_.size()) + 64;
+  const Vector3 extent = box_.max - box_.min;
+  width_ = std::max({2 * reach_, std::cbrt(extent.x * extent.y * extent.z / most_cubes), 1e-300, box_.diagonal() / 1000});
+  for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<int>(extent[axis] / width_) + 1;
+  std::vector<std::size_t> cubes;
+  for (const Point3& p : points_) cubes.push_back(cube_index(cube_of(p)));
+  group_by(cubes, static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2], first_in_cube_, in_cubes_);
+}
+
+std::array<int, 3> LandmarkWatch::cube_of(const Point3& p) const {
+  std::array<int, 3> cube;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double at = std::clamp((p[axis] - box_.min[axis]) / width_, 0.0, counts_[axis] - 1.0);
+    cube[axis] = static_cast<int>(at);
+  }
+  return cube;
+}
+
+void LandmarkWatch::note_change(const Box3& box, VertexId near) {
+  if (!all_) changes_.push_back({box, near});
+}
+
+std::vector<LandmarkWatch::Due> LandmarkWatch::take_due() {
+  std::vector<Due> due;
+  if (all_) {
+    for (std::uint32_t i = 0; i < points_.size(); ++i) due.push_back({i, kNone});
+    all_ = false;
+    return due;
+  }
+  for (const Change& change : changes_) {
+    const Vector3 margin{reach_, reach_, reach_};
+    const Box3 box{change.box.min - margin, change.box.max + margin};
+    const auto low = cube_of(box.min), high = cube_of(box.max);
+    std::array<int, 3> cube;
+    for (cube[2] = low[2]; cube[2] <= high[2]; ++cube[2]) {
+      for (cube[1] = low[1]; cube[1] <= high[1]; ++cube[1]) {
+        for (cube[0] = low[0]; cube[0] <= high[0]; ++cube[0]) {
+          for (std::uint32_t i = first_in_cube_[cube_index(cube)]; i < first_in_cube_[cube_index(cube) + 1]; ++i) {
+            if (box.contains(points_[in_cubes_[i]])) due.push_back({in_cubes_[i], change.near});
+          }
+        }
+      }
+    }
+  }
+  changes_.clear();
+  const auto same = [](const Due& a, const Due& b) { return a.landmark == b.landmark; };
+  std::stable_sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.landmark < b.landmark; });
+  due.erase(std::unique(due.begin(), due.end(), same), due.end());
+  return due;
+}
+
+void LandmarkWatch::await_links_of(const std::vector<Due>& landmarks) {
+  for (const Due& due : landmarks) {
+    for (std::uint32_t i = first_link_[due.landmark]; i < first_link_[due.landmark + 1]; ++i) {
+      if (waits_[links_of_[i]]) continue;
+      waits_[links_of_[i]] = true;
+      waiting_links_.push_back(links_of_[i]);
+    }
+  }
+}
+
+std::vector<std::uint32_t> LandmarkWatch::take_links() {
+  std::vector<std::uint32_t> links;
+  links.swap(waiting_links_);
+  for (std::uint32_t link : links) waits_[link] = false;
+  return links;
+}
+
+}  // namespace delvox
