@@ -27,6 +27,11 @@ namespace {
 
 constexpr double kMinBallRadiusVoxels = 0.001;
 
+/// Whether an isovalue takes passes over the samples: all but a number do.
+bool needs_samples(const std::string& iso) {
+  return iso.empty() || iso.find_first_not_of("0123456789.eE+-") != std::string::npos;
+}
+
 class MeshingRun {
  public:
   explicit MeshingRun(const MeshingOptions& options) : options_(options), console_(options.console) {}
@@ -76,21 +81,28 @@ class MeshingRun {
   std::string verdict_;
 };
 
+// Opens the volume, chooses the isovalue, and reads what lies near its surface.
 void MeshingRun::read() {
-  const Volume whole = watch_.timed("reading", [&] { return load_volume(options_.volume, console_); });
-  file_header_ = whole.header();
-  frame_ = FrameChange(file_header_.frame, options_.frame);
-  volume_ = watch_.timed("preprocessing", [&] { return preprocess(whole, options_.volume, frame_); });
+  const VolumeInput input = open_input(options_.volume, options_.frame);
+  file_header_ = input.file_header;
+  frame_ = input.frame;
+  VolumeSourcePtr source = input.source;
+  if (needs_samples(options_.isosurface.iso)) {
+    source = watch_.timed("reading", [&] { return kept_if_small(source); });
+  }
+  chosen_ = watch_.timed("isovalue", [&] { return choose_isosurface(*source, options_.isosurface, frame_); });
+  volume_ = watch_.timed("reading", [&] { return load(*source, chosen_.surface); });
   const VolumeHeader& h = volume_->header();
+  tell_warnings(h, options_.volume, console_);
+  check_isosurface(chosen_, *volume_);
   console_.detail(options_.volume.path + ": " + file_header_.format + "; meshing " + std::to_string(h.dims[0]) + " x " +
                   std::to_string(h.dims[1]) + " x " + std::to_string(h.dims[2]) + " voxels of " + point(h.spacing()) +
                   " mm, " + h.orientation());
+  console_.note(chosen_.sentence);
 }
 
-// Chooses the isovalue and the sizes, and says so.
+// Chooses the sizes, and says so.
 void MeshingRun::decide() {
-  chosen_ = watch_.timed("isovalue", [&] { return choose_isosurface(*volume_, options_.isosurface, frame_); });
-  console_.note(chosen_.sentence);
   const Frame frame = volume_->header().frame;
   if (!options_.cell_size.empty()) cell_size_ = parse_size(options_.cell_size, "--cell-size", frame);
   if (!options_.size.empty()) {

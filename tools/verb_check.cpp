@@ -88,7 +88,10 @@ struct Reference {
 Reference reference_for(const std::string& path, const MeshInfo& info, const Volume& volume, const Options& options) {
   Isosurface surface{info.isovalue.value_or(0), info.below || options.isosurface.below};
   if (!options.isosurface.iso.empty()) {
-    surface = choose_isosurface(volume, options.isosurface, FrameChange(volume.header().frame, options.frame)).surface;
+    const FrameChange frame(volume.header().frame, options.frame);
+    const ChosenIsosurface chosen = choose_isosurface(*source_of(volume), options.isosurface, frame);
+    check_isosurface(chosen, volume);
+    surface = chosen.surface;
     surface.below = info.below || options.isosurface.below;
   } else if (!info.isovalue) {
     throw OptionError(path + ": carries no isovalue; give --iso");
@@ -137,8 +140,8 @@ void run_check(const Verb& verb, const Arguments& arguments) {
   const Console console(options.console);
   std::optional<Volume> volume;
   if (!options.volume.path.empty()) {
-    const Volume whole = load_volume(options.volume, console);
-    volume = preprocess(whole, options.volume, FrameChange(whole.header().frame, options.frame));
+    volume = load(*open_input(options.volume, options.frame).source);
+    tell_warnings(volume->header(), options.volume, console);
   }
   Json json = run_header(verb, arguments);
   json["options"] = options_json(app);

@@ -32,33 +32,40 @@ struct Suggestion {
 };
 
 struct Findings {
+  float low = 0, high = 0;
+  std::vector<std::string> warnings;
   std::vector<double> percentiles;
   Histogram histogram;
   std::vector<Suggestion> suggestions;
 };
 
-std::vector<Suggestion> suggest(const Volume& volume, std::span<const float> samples, bool below) {
+std::vector<Suggestion> suggest(const VolumeSource& source, const SampleStatistics& statistics, bool below) {
   std::vector<Suggestion> suggestions;
+  std::vector<Isosurface> surfaces;
   for (int classes = 2; classes <= 4; ++classes) {
-    const std::vector<double> values = otsu_isovalues(samples, classes);
+    const std::vector<double> values = statistics.otsu_isovalues(classes);
     for (std::size_t i = 0; i < values.size(); ++i) {
       throw_if_cancelled();
-      Suggestion s;
-      s.spec = classes == 2 ? "otsu" : "otsu" + std::to_string(classes) + ":" + std::to_string(i + 1);
-      s.isovalue = values[i];
-      s.topology = count_topology(volume, {values[i], below});
-      suggestions.push_back(std::move(s));
+      const std::string spec = classes == 2 ? "otsu" : "otsu" + std::to_string(classes) + ":" + std::to_string(i + 1);
+      suggestions.push_back({spec, values[i], {}});
+      surfaces.push_back({values[i], below});
     }
   }
+  if (surfaces.empty()) return suggestions;
+  const std::vector<VoxelTopology> topologies = count_topologies(source, surfaces);
+  for (std::size_t n = 0; n < suggestions.size(); ++n) suggestions[n].topology = topologies[n];
   return suggestions;
 }
 
-Findings find(const Volume& volume, bool below) {
-  const std::vector<float> samples = volume.samples();
+Findings find(const VolumeSource& source, bool below) {
+  const SampleStatistics statistics(source);
   Findings findings;
-  findings.percentiles = percentiles(samples, kPercents);
-  findings.histogram = make_histogram(samples, kHistogramBins);
-  findings.suggestions = suggest(volume, samples, below);
+  findings.low = statistics.min();
+  findings.high = statistics.max();
+  findings.warnings = statistics.warnings();
+  findings.percentiles = statistics.percentiles(kPercents);
+  findings.histogram = statistics.histogram(kHistogramBins);
+  findings.suggestions = suggest(source, statistics, below);
   return findings;
 }
 
@@ -88,8 +95,8 @@ std::string suggestion_text(const std::vector<Suggestion>& suggestions) {
   return text;
 }
 
-std::string findings_text(const Volume& volume, const Findings& findings) {
-  std::string text = "range        " + number(volume.min(), 7) + " to " + number(volume.max(), 7) + "\npercentiles  ";
+std::string findings_text(const Findings& findings) {
+  std::string text = "range        " + number(findings.low, 7) + " to " + number(findings.high, 7) + "\npercentiles  ";
   for (std::size_t i = 0; i < std::size(kPercents); ++i) {
     text += (i > 0 ? ", p" : "p") + number(kPercents[i]) + " " + number(findings.percentiles[i], 6);
   }
@@ -100,7 +107,7 @@ std::string findings_text(const Volume& volume, const Findings& findings) {
   return text + "\n\n" + text_histogram(findings.histogram, marks) + "\n" + suggestion_text(findings.suggestions);
 }
 
-Json findings_json(const Volume& volume, const Findings& findings) {
+Json findings_json(const Findings& findings) {
   Json percentile_values = Json::object();
   for (std::size_t i = 0; i < std::size(kPercents); ++i) {
     percentile_values["p" + number(kPercents[i])] = findings.percentiles[i];
@@ -116,8 +123,8 @@ Json findings_json(const Volume& volume, const Findings& findings) {
                            {"volume_mm3", s.topology.volume_mm3}});
   }
   const Histogram& h = findings.histogram;
-  return {{"min", volume.min()},
-          {"max", volume.max()},
+  return {{"min", findings.low},
+          {"max", findings.high},
           {"percentiles", std::move(percentile_values)},
           {"histogram", {{"low", h.low}, {"high", h.high}, {"counts", h.counts}}},
           {"isovalues", std::move(suggestions)}};
@@ -143,20 +150,19 @@ void run_info(const Verb& verb, const Arguments& arguments) {
   if (!parse_arguments(app, arguments)) return;
 
   const Console console(options.console);
-  const Volume whole = read_volume(options.volume.path, options.volume.read);
-  throw_if_cancelled();
-  const Volume volume = preprocess(whole, options.volume, FrameChange());
-  const Findings findings = find(volume, options.below);
+  const VolumeSourcePtr source = kept_if_small(open_input(options.volume, "").source);
+  const Findings findings = find(*source, options.below);
+  VolumeHeader header = source->header();
+  header.warnings.insert(header.warnings.end(), findings.warnings.begin(), findings.warnings.end());
   if (console.json()) {
     Json json = run_header(verb, arguments);
-    json["volume"] = to_json(volume.header());
-    json["volume"]["extent_mm"] = {volume.dims()[0] * volume.header().spacing().x,
-                                   volume.dims()[1] * volume.header().spacing().y,
-                                   volume.dims()[2] * volume.header().spacing().z};
-    json.update(findings_json(volume, findings));
+    json["volume"] = to_json(header);
+    const Vector3 spacing = header.spacing();
+    json["volume"]["extent_mm"] = {header.dims[0] * spacing.x, header.dims[1] * spacing.y, header.dims[2] * spacing.z};
+    json.update(findings_json(findings));
     console.machine_result(text_of(json));
   }
-  console.result(header_text(options.volume.path, volume.header()) + findings_text(volume, findings));
+  console.result(header_text(options.volume.path, header) + findings_text(findings));
 }
 
 }  // namespace delvox::tools

@@ -12,13 +12,14 @@
 #include "validators.h"
 #include "thread_limit.h"
 #include "verbs.h"
+#include "volume_input.h"
 
 namespace delvox::tools {
 namespace {
 
 struct Options {
   std::string kind, output;
-  std::string dims, spacing, center, direction;
+  std::string dims, spacing, center, direction, type;
   std::optional<double> noise;
   std::optional<std::uint64_t> seed;
   ConsoleOptions console;
@@ -58,6 +59,7 @@ PhantomOptions phantom_options(const Options& options) {
       result.direction[axis] = {v[3 * axis], v[3 * axis + 1], v[3 * axis + 2]};
     }
   }
+  result.uint16 = options.type == "uint16";
   if (options.noise) result.noise = *options.noise;
   if (options.seed) result.seed = *options.seed;
   return result;
@@ -116,6 +118,11 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--noise", options.noise, "Standard deviation of noise added to every sample")
       ->check(finite_number(Zero::kAllowed))
       ->type_name("SIGMA");
+  app.add_option("--type", options.type,
+                 "float32, or uint16: 256 steps per unit, the isovalue at 32767.5 (a TIFF stores 16 bits then, slice by "
+                 "slice, so that it may be larger than memory)")
+      ->check(CLI::IsMember({"float32", "uint16"}))
+      ->type_name("TYPE");
   app.add_option("--seed", options.seed, "Of the noise, and of kind random")->type_name("N");
   add_config_option(app);
   add_console_options(app, options.console, JsonFlag::kOffered);
@@ -134,14 +141,14 @@ void run_phantom(const Verb& verb, const Arguments& arguments) {
   const PhantomTruth truth = phantom_truth(options.kind, phantom);
   check_output(options.output, {});
   const Console console(options.console);
-  const Volume volume = make_phantom(options.kind, phantom);
+  const VolumeSourcePtr volume = cancellable(phantom_source(options.kind, phantom));
+  write_volume(*volume, options.output);
   throw_if_cancelled();
-  write_volume(volume, options.output);
   console.note("wrote " + options.output);
   if (console.json()) {
     Json json = run_header(verb, arguments);
     json["options"] = options_json(app);
-    json["volume"] = to_json(volume.header());
+    json["volume"] = to_json(volume->header());
     json["truth"] = truth_json(truth);
     console.machine_result(text_of(json));
   }

@@ -26,6 +26,30 @@ Vector3 parse_spacing(const std::string& text) {
   return spacing;
 }
 
+// Ends a pass at Ctrl-C.
+class CancellableReader final : public SliceReader {
+ public:
+  explicit CancellableReader(std::unique_ptr<SliceReader> reader) : reader_(std::move(reader)) {}
+  void read(int count, float* out) override {
+    throw_if_cancelled();
+    reader_->read(count, out);
+  }
+  std::vector<std::string> warnings() const override { return reader_->warnings(); }
+
+ private:
+  std::unique_ptr<SliceReader> reader_;
+};
+
+class CancellableSource final : public VolumeSource {
+ public:
+  explicit CancellableSource(VolumeSourcePtr source) : VolumeSource(source->header()), source_(std::move(source)) {}
+  std::unique_ptr<SliceReader> start() const override { return std::make_unique<CancellableReader>(source_->start()); }
+  const float* samples() const override { return source_->samples(); }
+
+ private:
+  VolumeSourcePtr source_;
+};
+
 }  // namespace
 
 void add_reading_options(CLI::App& app, VolumeInputOptions& options) {
@@ -71,27 +95,37 @@ void add_component_options(CLI::App& app, IsosurfaceOptions& options) {
   app.add_flag("--fill-cavities", options.fill_cavities, "Fill cavities");
 }
 
-Volume load_volume(const VolumeInputOptions& options, const Console& console) {
-  Volume volume = read_volume(options.path, options.read);
-  throw_if_cancelled();
-  for (const std::string& warning : volume.header().warnings) console.note("warning: " + options.path + ": " + warning);
-  return volume;
+VolumeSourcePtr cancellable(VolumeSourcePtr source) { return std::make_shared<CancellableSource>(std::move(source)); }
+
+VolumeInput open_input(const VolumeInputOptions& options, const std::string& frame) {
+  VolumeSourcePtr source = cancellable(open_volume(options.path, options.read));
+  VolumeInput input{source->header(), FrameChange(source->header().frame, frame), nullptr};
+  if (!options.crop.empty()) {
+    source = crop(source, parse_crop(source->header(), input.frame.crop_in_volume(options.crop)));
+  }
+  if (options.resample > 0) source = resample(source, {.spacing_mm = options.resample});
+  if (options.smooth > 0) source = smooth(source, {.sigma_mm = options.smooth});
+  input.source = std::move(source);
+  return input;
 }
 
-Volume preprocess(const Volume& volume, const VolumeInputOptions& options, const FrameChange& frame) {
-  Volume result = volume;
-  if (!options.crop.empty()) result = crop(result, parse_crop(result, frame.crop_in_volume(options.crop)));
-  throw_if_cancelled();
-  if (options.resample > 0) result = resample(result, {.spacing_mm = options.resample});
-  throw_if_cancelled();
-  if (options.smooth > 0) result = smooth(result, {.sigma_mm = options.smooth});
-  throw_if_cancelled();
-  return result;
+VolumeSourcePtr kept_if_small(const VolumeSourcePtr& source) {
+  constexpr std::size_t kSmall = std::size_t{1} << 27;  // samples: 512 MB
+  return source->voxel_count() <= kSmall ? in_memory(*source) : source;
 }
 
-ChosenIsosurface choose_isosurface(const Volume& volume, const IsosurfaceOptions& options, const FrameChange& frame) {
-  const IsovalueChoice choice = choose_isovalue(volume, frame.iso_in_volume(options.iso));
+void tell_warnings(const VolumeHeader& header, const VolumeInputOptions& options, const Console& console) {
+  for (const std::string& warning : header.warnings) console.note("warning: " + options.path + ": " + warning);
+}
+
+ChosenIsosurface choose_isosurface(const VolumeSource& source, const IsosurfaceOptions& options,
+                                   const FrameChange& frame) {
+  const IsovalueChoice choice = choose_isovalue(source, frame.iso_in_volume(options.iso));
   return {{choice.value, options.below}, choice.sentence + (options.below ? ", inside is at or below" : "")};
+}
+
+void check_isosurface(const ChosenIsosurface& chosen, const Volume& volume) {
+  check_isovalue({chosen.surface.isovalue, chosen.sentence}, volume);
 }
 
 FilteredVolume filter_volume(const Volume& volume, const Isosurface& surface, const IsosurfaceOptions& options,

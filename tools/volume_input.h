@@ -38,11 +38,24 @@ void add_isovalue_options(CLI::App& app, IsosurfaceOptions& options);
 /// --largest, --min-component, --fill-cavities.
 void add_component_options(CLI::App& app, IsosurfaceOptions& options);
 
-/// Reads the volume, passing the reader's warnings on.
-Volume load_volume(const VolumeInputOptions& options, const Console& console);
+/// A volume file and what is made of it on the way in.
+struct VolumeInput {
+  VolumeHeader file_header;
+  FrameChange frame;
+  VolumeSourcePtr source;  ///< cropped, resampled, smoothed, in this order, as it is read
+};
 
-/// Crops, resamples, smooths, in this order. World coordinates in --crop are those of `frame`.
-Volume preprocess(const Volume& volume, const VolumeInputOptions& options, const FrameChange& frame);
+/// The source; Ctrl-C ends a pass.
+VolumeSourcePtr cancellable(VolumeSourcePtr source);
+
+/// Opens the volume. World coordinates in --crop are those of `frame`: ras, lps or empty for the volume's own.
+VolumeInput open_input(const VolumeInputOptions& options, const std::string& frame);
+
+/// The source, held in memory if it is small: for verbs that need several passes.
+VolumeSourcePtr kept_if_small(const VolumeSourcePtr& source);
+
+/// Passes a reader's warnings on.
+void tell_warnings(const VolumeHeader& header, const VolumeInputOptions& options, const Console& console);
 
 /// An isosurface and how its value came about.
 struct ChosenIsosurface {
@@ -51,7 +64,10 @@ struct ChosenIsosurface {
 };
 
 /// Resolves --iso; a point given as at:x,y,z is one of `frame`.
-ChosenIsosurface choose_isosurface(const Volume& volume, const IsosurfaceOptions& options, const FrameChange& frame);
+ChosenIsosurface choose_isosurface(const VolumeSource& source, const IsosurfaceOptions& options,
+                                   const FrameChange& frame);
+/// Throws NothingToMesh unless the isovalue lies in the range of the volume.
+void check_isosurface(const ChosenIsosurface& chosen, const Volume& volume);
 
 /// Takes out small components and fills cavities as the options say. `size`: radius of the surface balls, for the
 /// default of --min-component. Throws NothingToMesh if nothing is left.

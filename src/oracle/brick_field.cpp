@@ -1,30 +1,54 @@
 #include "oracle/brick_field.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "volume/block_sides.h"
+
 namespace delvox {
 namespace {
 
-/// Copies the 9x9x9 samples of one brick out of a slab; beyond the padded grid the last sample repeats.
-bool copy_block(const float* slab, const std::array<int, 3>& slab_size, int begin_i, int begin_j, double level,
-                float* block) {
-  bool any_inside = false, any_outside = false;
-  for (int k = 0; k < BrickField::kBlock; ++k) {
-    const int kk = std::min(k, slab_size[2] - 1);
-    for (int j = 0; j < BrickField::kBlock; ++j) {
-      const int jj = std::min(begin_j + j, slab_size[1] - 1);
-      const float* row = slab + (static_cast<std::size_t>(kk) * slab_size[1] + jj) * slab_size[0];
-      for (int i = 0; i < BrickField::kBlock; ++i) {
-        const float value = row[std::min(begin_i + i, slab_size[0] - 1)];
-        any_inside |= value > level;
-        any_outside |= !(value > level);
-        *block++ = value;
+/// Copies the 9x9x9 samples of one brick; beyond the padded grid the last sample repeats.
+void copy_brick(const Volume& volume, const LevelSet& level_set, const std::array<int, 3>& brick, float* block) {
+  std::array<int, 3> begin, size;
+  for (int axis = 0; axis < 3; ++axis) {
+    begin[axis] = brick[axis] * BrickField::kBrick - 1;
+    size[axis] = std::min(BrickField::kBlock, volume.dims()[axis] + 1 - begin[axis]);
+  }
+  copy_padded_block(volume, level_set, begin, size, block);
+  if (size == std::array<int, 3>{BrickField::kBlock, BrickField::kBlock, BrickField::kBlock}) return;
+  for (int k = BrickField::kBlock - 1; k >= 0; --k) {  // from the end: what is read lies before what is written
+    for (int j = BrickField::kBlock - 1; j >= 0; --j) {
+      for (int i = BrickField::kBlock - 1; i >= 0; --i) {
+        block[(k * BrickField::kBlock + j) * BrickField::kBlock + i] =
+            block[(std::min(k, size[2] - 1) * size[1] + std::min(j, size[1] - 1)) * size[0] + std::min(i, size[0] - 1)];
       }
     }
   }
-  return any_inside && any_outside;
+}
+
+/// The side of all samples of a brick if the blocks that it lies in tell: those from the one below it on, since brick b
+/// has voxels 8 b - 1 to 8 b + 7.
+Side side_by_blocks(const BlockSides& blocks, const std::array<int, 3>& brick, const std::array<int, 3>& dims) {
+  std::array<int, 3> low, high;
+  bool in_padding = false;
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = std::max(brick[axis] - 1, 0);
+    high[axis] = std::min(brick[axis], blocks.counts[axis] - 1);
+    in_padding |= brick[axis] == 0 || brick[axis] * BrickField::kBrick + BrickField::kBrick - 1 >= dims[axis];
+  }
+  const Side first = blocks.at(low[0], low[1], low[2]);
+  for (int k = low[2]; k <= high[2]; ++k) {
+    for (int j = low[1]; j <= high[1]; ++j) {
+      for (int i = low[0]; i <= high[0]; ++i) {
+        if (blocks.at(i, j, k) != first) return Side::kBoth;
+      }
+    }
+  }
+  return first == Side::kInside && in_padding ? Side::kBoth : first;  // padding is outside
 }
 
 }  // namespace
@@ -34,29 +58,40 @@ BrickField::BrickField(const Volume& volume, const LevelSet& level_set) : level_
     size_[axis] = volume.dims()[axis] + 2;
     brick_counts_[axis] = (size_[axis] - 1 + kBrick - 1) / kBrick;
   }
-  table_.reserve(static_cast<std::size_t>(brick_counts_[0]) * brick_counts_[1] * brick_counts_[2]);
-  std::vector<float> slab(static_cast<std::size_t>(size_[0]) * size_[1] * kBlock);
-  for (int brick_k = 0; brick_k < brick_counts_[2]; ++brick_k) {
-    const int begin_k = brick_k * kBrick;
-    const std::array<int, 3> slab_size{size_[0], size_[1], std::min(kBlock, size_[2] - begin_k)};
-    copy_padded_block(volume, level_set, {-1, -1, begin_k - 1}, slab_size, slab.data());
-    add_slab(slab.data(), slab_size);
+  find_sides(volume, level_set);
+  std::int32_t blocks = 0;
+  for (std::int32_t& entry : table_) {
+    if (entry >= 0) entry = blocks++;
   }
-  blocks_.shrink_to_fit();
+  blocks_.resize(static_cast<std::size_t>(blocks) * kBlockSize);
+  for_each_brick_in_parallel([&](const std::array<int, 3>& brick, std::int32_t& entry) {
+    if (entry >= 0) copy_brick(volume, level_set, brick, blocks_.data() + static_cast<std::size_t>(entry) * kBlockSize);
+  });
 }
 
-void BrickField::add_slab(const float* slab, const std::array<int, 3>& slab_size) {
-  std::array<float, kBlockSize> block;
-  for (int j = 0; j < brick_counts_[1]; ++j) {
-    for (int i = 0; i < brick_counts_[0]; ++i) {
-      if (copy_block(slab, slab_size, i * kBrick, j * kBrick, level_, block.data())) {
-        table_.push_back(static_cast<std::int32_t>(blocks_.size() / kBlockSize));
-        blocks_.insert(blocks_.end(), block.begin(), block.end());
-      } else {
-        table_.push_back(block[0] > level_ ? kInsideBrick : kOutsideBrick);
-      }
+template <class Visit>
+void BrickField::for_each_brick_in_parallel(const Visit& visit) {
+  tbb::parallel_for(0, brick_counts_[1] * brick_counts_[2], [&](int row) {
+    std::array<int, 3> brick{0, row % brick_counts_[1], row / brick_counts_[1]};
+    for (; brick[0] < brick_counts_[0]; ++brick[0]) visit(brick, table_[brick_index(brick)]);
+  });
+}
+
+/// Marks each brick in the table as pure, or as mixed by a zero.
+void BrickField::find_sides(const Volume& volume, const LevelSet& level_set) {
+  const BlockSides blocks = block_sides(volume, level_set);
+  table_.resize(static_cast<std::size_t>(brick_counts_[0]) * brick_counts_[1] * brick_counts_[2]);
+  for_each_brick_in_parallel([&](const std::array<int, 3>& brick, std::int32_t& entry) {
+    Side side = side_by_blocks(blocks, brick, volume.dims());
+    if (side == Side::kBoth) {
+      std::array<float, kBlockSize> block;
+      copy_brick(volume, level_set, brick, block.data());
+      const auto inside = std::count_if(block.begin(), block.end(), [&](float g) { return level_set.inside(g); });
+      if (inside == 0) side = Side::kOutside;
+      if (inside == kBlockSize) side = Side::kInside;
     }
-  }
+    entry = side == Side::kBoth ? 0 : side == Side::kInside ? kInsideBrick : kOutsideBrick;
+  });
 }
 
 BrickField::CellSamples BrickField::cell_samples(const std::array<int, 3>& cell) const {

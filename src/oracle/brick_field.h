@@ -88,7 +88,9 @@ class BrickField {
     return blocks_.data() + static_cast<std::size_t>(entry) * kBlockSize +
            ((cell[2] % kBrick) * kBlock + cell[1] % kBrick) * kBlock + cell[0] % kBrick;
   }
-  void add_slab(const float* slab, const std::array<int, 3>& slab_size);
+  void find_sides(const Volume& volume, const LevelSet& level_set);
+  template <class Visit>
+  void for_each_brick_in_parallel(const Visit& visit);
 
   double level_;
   std::array<int, 3> size_, brick_counts_;

@@ -16,54 +16,46 @@ namespace delvox {
 namespace {
 
 constexpr std::size_t kMaxBins = 65536;
+constexpr std::size_t kNoBin = std::numeric_limits<std::size_t>::max();
 using Counts = std::vector<std::size_t>;
 using Range = tbb::blocked_range<std::size_t>;
+constexpr std::size_t kGrain = std::size_t{1} << 18;
 
-void require_samples(std::span<const float> samples) {
-  if (samples.empty()) throw OptionError("histogram: there are no samples; give a volume with at least one voxel");
-}
+constexpr int kCensusBegin = -32768, kCensusEnd = 65536;
 
-/// Calls visit(sample, counts) for all samples, a private `counts` per thread, and adds those up: whole numbers, so the
-/// order of threads does not show.
-template <typename Visit>
-Counts count_samples(std::span<const float> samples, std::size_t bins, Visit visit) {
-  tbb::enumerable_thread_specific<Counts> partial(Counts(bins, 0));
-  tbb::parallel_for(Range(0, samples.size(), 1 << 18), [&](const Range& range) {
-    Counts& counts = partial.local();
-    for (std::size_t i = range.begin(); i != range.end(); ++i) visit(samples[i], counts);
-  });
-  Counts total(bins, 0);
-  for (const Counts& counts : partial) {
-    for (std::size_t bin = 0; bin < bins; ++bin) total[bin] += counts[bin];
-  }
-  return total;
-}
-
-struct Extremes {
+struct Tally {
   float low = std::numeric_limits<float>::infinity();
   float high = -std::numeric_limits<float>::infinity();
   bool integers = true;
+  Counts census = Counts(kCensusEnd - kCensusBegin, 0);  // empty once it has failed
 };
 
-Extremes find_extremes(std::span<const float> samples) {
-  tbb::enumerable_thread_specific<Extremes> partial;
-  tbb::parallel_for(Range(0, samples.size(), 1 << 18), [&](const Range& range) {
-    Extremes found = partial.local();
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const float sample = samples[i];
-      found.low = sample < found.low ? sample : found.low;
-      found.high = sample > found.high ? sample : found.high;
-      found.integers = found.integers && sample == std::trunc(sample);
-    }
-    partial.local() = found;
-  });
-  Extremes all;
-  for (const Extremes& found : partial) {
-    all.low = std::min(all.low, found.low);
-    all.high = std::max(all.high, found.high);
-    all.integers = all.integers && found.integers;
+void add(std::span<const float> samples, Tally& tally) {
+  float low = tally.low, high = tally.high;
+  bool integers = tally.integers;
+  for (const float sample : samples) {
+    low = sample < low ? sample : low;
+    high = sample > high ? sample : high;
+    integers = integers && sample == std::trunc(sample);
   }
-  return all;
+  tally.low = low;
+  tally.high = high;
+  tally.integers = integers;
+  if (!integers || low < kCensusBegin || high >= kCensusEnd) tally.census.clear();
+  if (tally.census.empty()) return;
+  // Runs of one value are counted apart: adding to the same place over and over is slow.
+  float value = samples.front();
+  std::size_t run = 0;
+  const auto end_run = [&] { tally.census[static_cast<std::size_t>(static_cast<int>(value) - kCensusBegin)] += run; };
+  for (const float sample : samples) {
+    if (sample != value) {
+      end_run();
+      value = sample;
+      run = 0;
+    }
+    ++run;
+  }
+  end_run();
 }
 
 /// Bits of a float as a number that sorts like the float.
@@ -86,67 +78,19 @@ Place find_rank(const Counts& counts, std::size_t begin, std::size_t rank) {
   return {bin - begin, rank};
 }
 
-/// The samples of the given ranks in sorted order, by two rounds of counting, 16 bits each, instead of sorting.
-std::vector<float> select_ranks(std::span<const float> samples, const std::vector<std::size_t>& ranks) {
-  const Counts upper = count_samples(samples, kMaxBins, [](float s, Counts& counts) { ++counts[sortable(s) >> 16]; });
-  constexpr std::int32_t kNone = -1;
-  std::vector<std::int32_t> slot_of(kMaxBins, kNone);
-  std::size_t slots = 0;
-  std::vector<Place> places;
-  for (std::size_t rank : ranks) {
-    places.push_back(find_rank(upper, 0, rank));
-    std::int32_t& slot = slot_of[places.back().bin];
-    if (slot == kNone) slot = static_cast<std::int32_t>(slots++);
-  }
-  const Counts lower = count_samples(samples, slots * kMaxBins, [&](float s, Counts& counts) {
-    const std::uint32_t key = sortable(s);
-    const std::int32_t slot = slot_of[key >> 16];
-    if (slot != kNone) ++counts[static_cast<std::size_t>(slot) * kMaxBins + (key & 0xFFFFu)];
-  });
-  std::vector<float> result;
-  for (const Place& place : places) {
-    const Place exact = find_rank(lower, static_cast<std::size_t>(slot_of[place.bin]) * kMaxBins, place.rank);
-    result.push_back(unsortable(static_cast<std::uint32_t>(place.bin << 16 | exact.bin)));
-  }
-  return result;
-}
+}  // namespace
 
 /// Occupied bins in ascending order; position * step + origin is the value that a bin stands for.
-struct OccupiedBins {
+struct SampleStatistics::OccupiedBins {
   double origin = 0;
   double step = 1;
   std::vector<double> position;
   std::vector<double> weight;
 };
 
-OccupiedBins occupied_bins(std::span<const float> samples) {
-  const Extremes extremes = find_extremes(samples);
-  const double low = extremes.low, range = static_cast<double>(extremes.high) - low;
-  const bool one_bin_per_integer = range == 0 || (extremes.integers && range < kMaxBins);
-  OccupiedBins bins;
-  Counts counts;
-  if (one_bin_per_integer) {
-    bins.origin = low;
-    counts = count_samples(samples, kMaxBins,
-                           [low](float s, Counts& c) { ++c[static_cast<std::size_t>(s - low)]; });
-  } else {
-    bins.step = range / kMaxBins;
-    bins.origin = low + 0.5 * bins.step;
-    counts = count_samples(samples, kMaxBins, [low, scale = kMaxBins / range](float s, Counts& c) {
-      ++c[std::min(static_cast<std::size_t>((s - low) * scale), kMaxBins - 1)];
-    });
-  }
-  for (std::size_t bin = 0; bin < kMaxBins; ++bin) {
-    if (counts[bin] == 0) continue;
-    bins.position.push_back(static_cast<double>(bin));
-    bins.weight.push_back(static_cast<double>(counts[bin]));
-  }
-  return bins;
-}
-
 /// Least variance within classes = largest sum over classes of (sum of values)^2 / weight, by dynamic programming over
 /// the bins; the best split moves up with the end of the range, which divide and conquer uses: O(classes n log n).
-class ClassSplitter {
+class SampleStatistics::ClassSplitter {
  public:
   explicit ClassSplitter(const OccupiedBins& bins) : size_(bins.position.size()), weights_{0}, sums_{0} {
     for (std::size_t i = 0; i < size_; ++i) {
@@ -207,35 +151,145 @@ class ClassSplitter {
   std::vector<std::size_t> first_;
 };
 
-}  // namespace
+SampleStatistics::SampleStatistics(std::span<const float> samples)
+    : for_each_piece_([samples](const Visit& visit) {
+        visit(samples);
+        return std::vector<std::string>();
+      }), size_(samples.size()) {
+  take_census();
+}
 
-Histogram make_histogram(std::span<const float> samples, int bins) {
-  require_samples(samples);
+SampleStatistics::SampleStatistics(const VolumeSource& source)
+    : for_each_piece_([&source](const Visit& visit) {
+        const std::size_t area = static_cast<std::size_t>(source.dims()[0]) * source.dims()[1];
+        return for_each_slab(source, [&](const float* samples, int, int slices) { visit({samples, area * slices}); });
+      }),
+      size_(source.voxel_count()) {
+  take_census();
+}
+
+void SampleStatistics::take_census() {
+  if (size_ == 0) throw OptionError("histogram: there are no samples; give a volume with at least one voxel");
+  tbb::enumerable_thread_specific<Tally> partial;
+  warnings_ = for_each_piece_([&](std::span<const float> samples) {
+    tbb::parallel_for(Range(0, samples.size(), kGrain), [&](const Range& range) {
+      add(samples.subspan(range.begin(), range.size()), partial.local());
+    });
+  });
+  Tally all;
+  for (const Tally& tally : partial) {
+    all.low = std::min(all.low, tally.low);
+    all.high = std::max(all.high, tally.high);
+    all.integers = all.integers && tally.integers;
+    if (tally.census.empty()) all.census.clear();
+    for (std::size_t bin = 0; bin < all.census.size(); ++bin) all.census[bin] += tally.census[bin];
+  }
+  low_ = all.low;
+  high_ = all.high;
+  integers_ = all.integers;
+  census_ = std::move(all.census);
+}
+
+/// How many samples there are per bin; bin_of(sample) may be kNoBin. Whole numbers, so the order of threads does not
+/// show.
+template <class BinOf>
+Counts SampleStatistics::count(std::size_t bins, const BinOf& bin_of) const {
+  Counts total(bins, 0);
+  if (!census_.empty()) {
+    for (std::size_t n = 0; n < census_.size(); ++n) {
+      if (census_[n] == 0) continue;
+      const std::size_t bin = bin_of(static_cast<float>(static_cast<int>(n) + kCensusBegin));
+      if (bin != kNoBin) total[bin] += census_[n];
+    }
+    return total;
+  }
+  tbb::enumerable_thread_specific<Counts> partial(Counts(bins, 0));
+  for_each_piece_([&](std::span<const float> samples) {
+    tbb::parallel_for(Range(0, samples.size(), kGrain), [&](const Range& range) {
+      Counts& counts = partial.local();
+      for (const float sample : samples.subspan(range.begin(), range.size())) {
+        const std::size_t bin = bin_of(sample);
+        if (bin != kNoBin) ++counts[bin];
+      }
+    });
+  });
+  for (const Counts& counts : partial) {
+    for (std::size_t bin = 0; bin < bins; ++bin) total[bin] += counts[bin];
+  }
+  return total;
+}
+
+/// The samples of the given ranks in sorted order, by two rounds of counting, 16 bits each, instead of sorting.
+std::vector<float> SampleStatistics::select_ranks(const std::vector<std::size_t>& ranks) const {
+  const Counts upper = count(kMaxBins, [](float s) -> std::size_t { return sortable(s) >> 16; });
+  Counts slot_of(kMaxBins, kNoBin);
+  std::size_t slots = 0;
+  std::vector<Place> places;
+  for (std::size_t rank : ranks) {
+    places.push_back(find_rank(upper, 0, rank));
+    std::size_t& slot = slot_of[places.back().bin];
+    if (slot == kNoBin) slot = slots++;
+  }
+  const Counts lower = count(slots * kMaxBins, [&](float s) -> std::size_t {
+    const std::uint32_t key = sortable(s);
+    const std::size_t slot = slot_of[key >> 16];
+    return slot == kNoBin ? kNoBin : slot * kMaxBins + (key & 0xFFFFu);
+  });
+  std::vector<float> result;
+  for (const Place& place : places) {
+    const Place exact = find_rank(lower, slot_of[place.bin] * kMaxBins, place.rank);
+    result.push_back(unsortable(static_cast<std::uint32_t>(place.bin << 16 | exact.bin)));
+  }
+  return result;
+}
+
+SampleStatistics::OccupiedBins SampleStatistics::occupied_bins() const {
+  const double low = low_, range = static_cast<double>(high_) - low;
+  const bool one_bin_per_integer = range == 0 || (integers_ && range < kMaxBins);
+  OccupiedBins bins;
+  Counts counts;
+  if (one_bin_per_integer) {
+    bins.origin = low;
+    counts = count(kMaxBins, [low](float s) { return static_cast<std::size_t>(s - low); });
+  } else {
+    bins.step = range / kMaxBins;
+    bins.origin = low + 0.5 * bins.step;
+    counts = count(kMaxBins, [low, scale = kMaxBins / range](float s) {
+      return std::min(static_cast<std::size_t>((s - low) * scale), kMaxBins - 1);
+    });
+  }
+  for (std::size_t bin = 0; bin < kMaxBins; ++bin) {
+    if (counts[bin] == 0) continue;
+    bins.position.push_back(static_cast<double>(bin));
+    bins.weight.push_back(static_cast<double>(counts[bin]));
+  }
+  return bins;
+}
+
+Histogram SampleStatistics::histogram(int bins) const {
   if (bins < 1) throw OptionError("histogram: the number of bins is below 1; give a positive number");
-  const Extremes extremes = find_extremes(samples);
-  Histogram histogram{extremes.low, extremes.high, {}};
-  const std::size_t count = static_cast<std::size_t>(bins);
+  Histogram histogram{low_, high_, {}};
+  const std::size_t most = static_cast<std::size_t>(bins);
   const double range = histogram.high - histogram.low;
   const double scale = range > 0 ? bins / range : 0;
-  histogram.counts = count_samples(samples, count, [low = histogram.low, scale, count](float s, Counts& counts) {
-    ++counts[std::min(static_cast<std::size_t>((s - low) * scale), count - 1)];
+  histogram.counts = count(most, [low = histogram.low, scale, most](float s) {
+    return std::min(static_cast<std::size_t>((s - low) * scale), most - 1);
   });
   return histogram;
 }
 
-std::vector<double> percentiles(std::span<const float> samples, std::span<const double> percents) {
-  require_samples(samples);
+std::vector<double> SampleStatistics::percentiles(std::span<const double> percents) const {
   std::vector<std::size_t> ranks;
   std::vector<double> fractions;
   for (double percent : percents) {
     if (!(percent >= 0 && percent <= 100)) throw OptionError("percentile: must be from 0 to 100");
-    const double rank = percent / 100 * static_cast<double>(samples.size() - 1);
-    const std::size_t below = std::min(static_cast<std::size_t>(rank), samples.size() - 1);
+    const double rank = percent / 100 * static_cast<double>(size_ - 1);
+    const std::size_t below = std::min(static_cast<std::size_t>(rank), size_ - 1);
     ranks.push_back(below);
-    ranks.push_back(std::min(below + 1, samples.size() - 1));
+    ranks.push_back(std::min(below + 1, size_ - 1));
     fractions.push_back(rank - static_cast<double>(below));
   }
-  const std::vector<float> at_rank = select_ranks(samples, ranks);
+  const std::vector<float> at_rank = select_ranks(ranks);
   std::vector<double> result;
   for (std::size_t i = 0; i < fractions.size(); ++i) {
     const double below = at_rank[2 * i], above = at_rank[2 * i + 1];
@@ -244,10 +298,9 @@ std::vector<double> percentiles(std::span<const float> samples, std::span<const 
   return result;
 }
 
-std::vector<double> otsu_isovalues(std::span<const float> samples, int classes) {
-  require_samples(samples);
+std::vector<double> SampleStatistics::otsu_isovalues(int classes) const {
   if (classes < 2) throw OptionError("otsu: needs at least 2 classes");
-  const OccupiedBins bins = occupied_bins(samples);
+  const OccupiedBins bins = occupied_bins();
   if (bins.position.size() < static_cast<std::size_t>(classes)) return {};
   std::vector<double> result;
   for (std::size_t first : ClassSplitter(bins).split(static_cast<std::size_t>(classes))) {

@@ -18,7 +18,7 @@ constexpr std::size_t kLongestHeader = std::size_t{1} << 16;
 class InrimageReader {
  public:
   explicit InrimageReader(ByteSource source) : source_(std::move(source)) {}
-  Volume read();
+  VolumeSourcePtr open();
 
  private:
   void read_fields();
@@ -147,10 +147,10 @@ void InrimageReader::warn_of_ignored_fields() {
   }
 }
 
-Volume InrimageReader::read() {
+VolumeSourcePtr InrimageReader::open() {
   read_fields();
   const std::array<std::int64_t, 3> size = dims();
-  const std::size_t count = checked_voxel_count(source_.path(), size);
+  checked_voxel_count(source_.path(), size);
   SampleLayout layout{sample_type()};
   layout.big_endian = size_of(layout.type) > 1 && big_endian();
   layout.offset = source_.position();
@@ -159,20 +159,18 @@ Volume InrimageReader::read() {
   header_.sample_type = to_string(layout.type);
   header_.index_to_world = affine();
   warn_of_ignored_fields();
-  const std::vector<float> samples = read_samples(source_, layout, count, header_);
-  source_.verify_end();
-  return make_volume(source_.path(), std::move(header_), samples);
+  return payload_source(source_.path(), std::move(header_), source_.path(), layout);
 }
 
 }  // namespace
 
 bool looks_like_inrimage(std::string_view start) { return start.starts_with(kMagic); }
 
-Volume read_inrimage(ByteSource source, const ReadVolumeOptions& options) {
+VolumeSourcePtr open_inrimage(ByteSource source, const ReadVolumeOptions& options) {
   refuse_spacing(source.path(), options);
   VolumeHeader unused;
   check_volume_index(source.path(), options, 1, unused);
-  return InrimageReader(std::move(source)).read();
+  return InrimageReader(std::move(source)).open();
 }
 
 }  // namespace delvox

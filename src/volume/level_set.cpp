@@ -15,6 +15,25 @@ LevelSet::LevelSet(const Isosurface& surface) : sign(surface.below ? -1.0f : 1.0
   level = 0.5 * (static_cast<double>(smallest_inside) + static_cast<double>(largest_outside));
 }
 
+float LevelSet::nearest(bool on_inside) const {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  float just_inside = static_cast<float>(level);
+  if (!inside(just_inside)) just_inside = std::nextafter(just_inside, kInfinity);
+  return sign * (on_inside ? just_inside : std::nextafter(just_inside, -kInfinity));
+}
+
+void pad_row(const LevelSet& level_set, const float* samples, int n, bool in_padding, float* out) {
+  for (int i = 0; i < n; ++i) out[i + 1] = level_set.sign * samples[i];
+  const auto push_outside = [&](float& g) {
+    if (level_set.inside(g)) g = static_cast<float>(2 * level_set.level - g);
+  };
+  if (in_padding) std::for_each(out + 1, out + n + 1, push_outside);
+  out[0] = out[1];
+  out[n + 1] = out[n];
+  push_outside(out[0]);
+  push_outside(out[n + 1]);
+}
+
 void copy_padded_block(const Volume& volume, const LevelSet& level_set, const std::array<int, 3>& begin,
                        const std::array<int, 3>& size, float* out) {
   const std::array<int, 3>& dims = volume.dims();

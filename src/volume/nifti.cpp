@@ -117,7 +117,7 @@ NiftiHeader read_header(ByteSource& source) {
 
 bool looks_like_nifti(std::string_view start) { return nifti_version(start) != 0; }
 
-Volume read_nifti(ByteSource source, const ReadVolumeOptions& options) {
+VolumeSourcePtr open_nifti(ByteSource source, const ReadVolumeOptions& options) {
   const fs::path path = source.path();
   refuse_spacing(path, options);
   const NiftiHeader nifti = read_header(source);
@@ -138,10 +138,7 @@ Volume read_nifti(ByteSource source, const ReadVolumeOptions& options) {
     header.warnings.push_back("bitpix is " + std::to_string(nifti.bitpix) + ", datatype says " + header.sample_type +
                               "; datatype was taken");
   }
-  ByteSource image = nifti.pair ? ByteSource(image_of_pair(path)) : std::move(source);
-  const std::vector<float> samples = read_samples(image, layout, count, header);
-  image.verify_end();
-  return make_volume(path, std::move(header), samples);
+  return payload_source(path, std::move(header), nifti.pair ? image_of_pair(path) : path, layout);
 }
 
 }  // namespace delvox

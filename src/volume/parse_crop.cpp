@@ -48,34 +48,34 @@ std::array<std::array<std::optional<Number>, 2>, 3> parse_ranges(std::string_vie
 }
 
 /// World box around all voxel centers.
-Box3 world_box(const Volume& volume) {
+Box3 world_box(const VolumeHeader& header) {
   Box3 box;
   for (int corner = 0; corner < 8; ++corner) {
     Point3 index;
-    for (int axis = 0; axis < 3; ++axis) index[axis] = corner >> axis & 1 ? volume.dims()[axis] - 1 : 0;
-    box.extend(volume.header().index_to_world(index));
+    for (int axis = 0; axis < 3; ++axis) index[axis] = corner >> axis & 1 ? header.dims[axis] - 1 : 0;
+    box.extend(header.index_to_world(index));
   }
   return box;
 }
 
 }  // namespace
 
-IndexBox parse_crop(const Volume& volume, std::string_view text) {
+IndexBox parse_crop(const VolumeHeader& header, std::string_view text) {
   const std::string_view whole = text;
   if (text.ends_with("mm")) {
-    Box3 world = world_box(volume);
+    Box3 world = world_box(header);
     const auto ranges = parse_ranges<double>(whole, text.substr(0, text.size() - 2));
     for (int axis = 0; axis < 3; ++axis) {
       world.min[axis] = ranges[axis][0].value_or(world.min[axis]);
       world.max[axis] = ranges[axis][1].value_or(world.max[axis]);
     }
-    return index_box(volume, world);
+    return index_box(header, world);
   }
-  IndexBox box{{0, 0, 0}, volume.dims()};
+  IndexBox box{{0, 0, 0}, header.dims};
   const auto ranges = parse_ranges<int>(whole, text);
   for (int axis = 0; axis < 3; ++axis) {
-    box.begin[axis] = std::clamp(ranges[axis][0].value_or(0), 0, volume.dims()[axis]);
-    box.end[axis] = std::clamp(ranges[axis][1].value_or(volume.dims()[axis]), 0, volume.dims()[axis]);
+    box.begin[axis] = std::clamp(ranges[axis][0].value_or(0), 0, header.dims[axis]);
+    box.end[axis] = std::clamp(ranges[axis][1].value_or(header.dims[axis]), 0, header.dims[axis]);
   }
   return box;
 }

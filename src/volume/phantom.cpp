@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "delvox/core/errors.h"
@@ -73,7 +74,7 @@ const Row& find_row(std::string_view name) {
 }
 
 void check_options(const PhantomOptions& options) {
-  constexpr double kMaxVoxels = 2147483648.0;
+  constexpr double kMaxVoxels = 1099511627776.0;
   double voxels = 1;
   for (int axis = 0; axis < 3; ++axis) {
     if (options.dims[axis] < 1) throw OptionError("phantom: a dimension is below 1; give three positive numbers");
@@ -88,7 +89,7 @@ void check_options(const PhantomOptions& options) {
       }
     }
   }
-  if (voxels > kMaxVoxels) throw OptionError("phantom: more than 2^31 voxels; choose smaller dimensions");
+  if (voxels > kMaxVoxels) throw OptionError("phantom: more than 2^40 voxels; choose smaller dimensions");
   if (!is_finite(options.center)) throw OptionError("phantom: the center is not finite; give millimetres");
   if (!(options.noise >= 0) || !std::isfinite(options.noise)) {
     throw OptionError("phantom: noise must not be negative; give a standard deviation");
@@ -100,7 +101,7 @@ VolumeHeader make_header(const PhantomOptions& options) {
   header.dims = options.dims;
   header.frame = Frame::kRas;
   header.format = "phantom";
-  header.sample_type = "float32";
+  header.sample_type = options.uint16 ? "uint16" : "float32";
   Point3 origin = options.center;
   for (int axis = 0; axis < 3; ++axis) {
     const Vector3 column = options.spacing[axis] * options.direction[axis];
@@ -129,6 +130,68 @@ double near_normal(std::uint64_t key) {
   return sum - 6;
 }
 
+constexpr double kStepsPerUnit = 256, kIsovalueOfSteps = 32767.5;
+
+/// Turns the units of a truth into steps.
+PhantomTruth in_steps(PhantomTruth truth) {
+  const auto value = truth.value;
+  const auto gradient = truth.gradient;
+  const double isovalue = truth.isovalue;
+  if (value) {
+    truth.value = [=](const Point3& p) { return kStepsPerUnit * (value(p) - isovalue) + kIsovalueOfSteps; };
+  }
+  if (gradient) truth.gradient = [=](const Point3& p) { return kStepsPerUnit * gradient(p); };
+  truth.isovalue = kIsovalueOfSteps;
+  return truth;
+}
+
+class PhantomReader final : public SliceReader {
+ public:
+  PhantomReader(const PhantomTruth& truth, const PhantomOptions& options, const Affine3& index_to_world)
+      : truth_(truth), options_(options), index_to_world_(index_to_world), stream_(splitmix64(options.seed)) {}
+
+  void read(int count, float* out) override {
+    const int columns = options_.dims[0], rows = options_.dims[1];
+    tbb::parallel_for(0, rows * count, [&](int row) {
+      make_row(row % rows, next_ + row / rows, out + static_cast<std::size_t>(row) * columns);
+    });
+    next_ += count;
+  }
+
+ private:
+  void make_row(int j, int k, float* out) const {
+    std::size_t index = (static_cast<std::size_t>(k) * options_.dims[1] + j) * options_.dims[0];
+    for (int i = 0; i < options_.dims[0]; ++i, ++index) {
+      const std::uint64_t key = splitmix64(stream_ ^ index);
+      // Only "random" has no function behind it.
+      double value = truth_.value ? truth_.value(index_to_world_({1.0 * i, 1.0 * j, 1.0 * k}))
+                                  : static_cast<double>(key >> 62) * (options_.uint16 ? kStepsPerUnit : 1);
+      if (options_.noise > 0) value += options_.noise * (options_.uint16 ? kStepsPerUnit : 1) * near_normal(key);
+      if (options_.uint16) value = std::clamp(std::round(value), 0.0, 65535.0);
+      out[i] = static_cast<float>(value);
+    }
+  }
+
+  const PhantomTruth& truth_;
+  const PhantomOptions& options_;
+  Affine3 index_to_world_;
+  std::uint64_t stream_;
+  int next_ = 0;
+};
+
+class PhantomSource final : public VolumeSource {
+ public:
+  PhantomSource(VolumeHeader header, PhantomTruth truth, const PhantomOptions& options)
+      : VolumeSource(std::move(header)), truth_(std::move(truth)), options_(options) {}
+  std::unique_ptr<SliceReader> start() const override {
+    return std::make_unique<PhantomReader>(truth_, options_, header().index_to_world);
+  }
+
+ private:
+  PhantomTruth truth_;
+  PhantomOptions options_;
+};
+
 }  // namespace
 
 const std::vector<PhantomKind>& phantom_kinds() {
@@ -145,30 +208,16 @@ PhantomOptions phantom_defaults(std::string_view kind) { return find_row(kind).k
 PhantomTruth phantom_truth(std::string_view kind, const PhantomOptions& options) {
   const Row& row = find_row(kind);
   check_options(options);
-  return row.make_truth(PhantomSetting(options));
+  const PhantomTruth truth = row.make_truth(PhantomSetting(options));
+  return options.uint16 ? in_steps(truth) : truth;
 }
 
-Volume make_phantom(std::string_view kind, const PhantomOptions& options) {
+VolumeSourcePtr phantom_source(std::string_view kind, const PhantomOptions& options) {
   const PhantomTruth truth = phantom_truth(kind, options);
-  VolumeHeader header = make_header(options);
-  const std::array<int, 3> n = header.dims;
-  std::vector<float> samples(static_cast<std::size_t>(n[0]) * n[1] * n[2]);
-  const std::uint64_t stream = splitmix64(options.seed);
-  tbb::parallel_for(0, n[2], [&](int k) {
-    std::size_t index = static_cast<std::size_t>(k) * n[0] * n[1];
-    for (int j = 0; j < n[1]; ++j) {
-      for (int i = 0; i < n[0]; ++i, ++index) {
-        const std::uint64_t key = splitmix64(stream ^ index);
-        // Only "random" has no function behind it.
-        double value = truth.value ? truth.value(header.index_to_world({1.0 * i, 1.0 * j, 1.0 * k}))
-                                   : static_cast<double>(key >> 62);
-        if (options.noise > 0) value += options.noise * near_normal(key);
-        samples[index] = static_cast<float>(value);
-      }
-    }
-  });
-  return Volume(std::move(header), samples);
+  return std::make_shared<PhantomSource>(make_header(options), truth, options);
 }
+
+Volume make_phantom(std::string_view kind, const PhantomOptions& options) { return load(*phantom_source(kind, options)); }
 
 Volume make_phantom(std::string_view kind) { return make_phantom(kind, phantom_defaults(kind)); }
 

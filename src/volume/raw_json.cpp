@@ -177,13 +177,13 @@ bool looks_like_raw_json(std::string_view start) {
   return first != std::string_view::npos && start[first] == '{';
 }
 
-Volume read_raw_json(ByteSource source, const ReadVolumeOptions& options) {
+VolumeSourcePtr open_raw_json(ByteSource source, const ReadVolumeOptions& options) {
   const fs::path path = source.path();
   const Sidecar sidecar(source);
   VolumeHeader header;
   check_volume_index(path, options, 1, header);
   const std::array<std::int64_t, 3> dims = sidecar.dims();
-  const std::size_t count = checked_voxel_count(path, dims);
+  checked_voxel_count(path, dims);
   const std::string type_name = sidecar.text("type", nullptr), endian = sidecar.text("endian", "little");
   const std::optional<SampleType> type = parse_sample_type(type_name);
   if (!type) sidecar.fail("type '" + type_name + "' is unknown", "use int8 to uint64, float32 or float64");
@@ -194,10 +194,7 @@ Volume read_raw_json(ByteSource source, const ReadVolumeOptions& options) {
   header.frame = frame(sidecar);
   header.format = "raw+JSON";
   header.sample_type = to_string(*type);
-  ByteSource raw(path.parent_path() / sidecar.text("file", nullptr));
-  const std::vector<float> samples = read_samples(raw, layout, count, header);
-  raw.verify_end();
-  return make_volume(path, std::move(header), samples);
+  return payload_source(path, std::move(header), path.parent_path() / sidecar.text("file", nullptr), layout);
 }
 
 void write_raw_json(const Volume& volume, const fs::path& path) {

@@ -8,6 +8,7 @@
 
 #include "delvox/core/errors.h"
 #include "volume/byte_source.h"
+#include "volume/grid_builder.h"
 #include "volume/sample_type.h"
 
 namespace delvox {
@@ -27,6 +28,18 @@ std::string gigabytes(double bytes) {
   return text;
 }
 
+std::string text_of(const std::array<std::int64_t, 3>& dims) {
+  return std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " + std::to_string(dims[2]);
+}
+
+void check_memory(const std::filesystem::path& path, const std::string& what, double needed) {
+  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  if (needed <= memory && needed <= std::ldexp(1.0, 40)) return;
+  fail_input(path,
+             what + " needs about " + gigabytes(needed) + " of memory, this machine has " + gigabytes(memory),
+             "crop or resample the file first, or check its header");
+}
+
 }  // namespace
 
 void fail_input(const std::filesystem::path& path, const std::string& cause, const std::string& mend) {
@@ -34,39 +47,40 @@ void fail_input(const std::filesystem::path& path, const std::string& cause, con
 }
 
 std::size_t checked_voxel_count(const std::filesystem::path& path, const std::array<std::int64_t, 3>& dims) {
-  const std::string text =
-      std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " + std::to_string(dims[2]);
-  double count = 1;
   for (std::int64_t n : dims) {
-    if (n < 1) fail_input(path, "the dimensions are " + text, "the header is damaged: copy or convert the file again");
-    if (n > std::numeric_limits<int>::max()) {
-      fail_input(path, "the dimensions are " + text + ", above 2^31-1 along an axis", "crop or resample it first");
+    if (n < 1) {
+      fail_input(path, "the dimensions are " + text_of(dims), "the header is damaged: copy or convert the file again");
     }
-    count *= static_cast<double>(n);
+    if (n > std::numeric_limits<int>::max()) {
+      fail_input(path, "the dimensions are " + text_of(dims) + ", above 2^31-1 along an axis",
+                 "crop or resample it first");
+    }
   }
-  // One dense copy and, at worst, as much again in the grid.
-  const double needed = count * 2 * sizeof(float);
-  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
-  if (needed > memory || needed > std::ldexp(1.0, 40)) {
-    fail_input(path,
-               "a volume of " + text + " needs about " + gigabytes(needed) + " of memory, this machine has " +
-                   gigabytes(memory),
-               "crop or resample the file first, or check its header");
+  const double area = static_cast<double>(dims[0]) * static_cast<double>(dims[1]);
+  if (area * static_cast<double>(dims[2]) > std::ldexp(1.0, 40)) {
+    fail_input(path, "the dimensions are " + text_of(dims) + ", above 2^40 voxels", "crop or resample it first");
   }
+  constexpr double kSlabsInMemory = 3;
+  const double slices = kSlabsInMemory * static_cast<double>(std::min<std::int64_t>(dims[2], kSlabSlices));
+  check_memory(path, "a volume of " + text_of(dims), area * slices * sizeof(float));
   return static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]) * static_cast<std::size_t>(dims[2]);
 }
 
-void check_tally(const std::filesystem::path& path, const ConversionTally& tally, SampleType type,
-                 VolumeHeader& header) {
-  if (tally.not_finite > 0) {
-    fail_input(path,
-               std::to_string(tally.not_finite) + " samples are NaN, infinite or beyond float32",
-               "replace them first, e.g. by the background value");
-  }
-  if (tally.inexact > 0) {
-    header.warnings.push_back(std::to_string(tally.inexact) + " samples of type " + to_string(type) +
-                              " were rounded to float32");
-  }
+void check_fits_whole(const std::filesystem::path& path, const std::array<std::int64_t, 3>& dims) {
+  // One dense copy and, at worst, as much again in the grid.
+  const double count = static_cast<double>(dims[0]) * static_cast<double>(dims[1]) * static_cast<double>(dims[2]);
+  check_memory(path, "a volume of " + text_of(dims) + " as a whole", count * 2 * sizeof(float));
+}
+
+void check_finite(const std::filesystem::path& path, const ConversionTally& tally) {
+  if (tally.not_finite == 0) return;
+  fail_input(path, std::to_string(tally.not_finite) + " samples are NaN, infinite or beyond float32",
+             "replace them first, e.g. by the background value");
+}
+
+std::vector<std::string> tally_warnings(const ConversionTally& tally, SampleType type) {
+  if (tally.inexact == 0) return {};
+  return {std::to_string(tally.inexact) + " samples of type " + to_string(type) + " were rounded to float32"};
 }
 
 void check_payload(const ByteSource& source, const SampleLayout& layout, std::size_t count) {
@@ -81,11 +95,6 @@ void check_payload(const ByteSource& source, const SampleLayout& layout, std::si
 
 void read_sample_run(ByteSource& source, const SampleLayout& layout, std::size_t count, float* out,
                      ConversionTally& tally) {
-  check_payload(source, layout, count);
-  if (layout.offset < source.position()) {
-    fail_input(source.path(), "the samples overlap the header", "convert the file again");
-  }
-  source.skip(layout.offset - source.position(), "the data before the samples");
   constexpr std::size_t kSamplesPerPiece = std::size_t{1} << 16;
   const std::size_t sample_size = size_of(layout.type);
   std::vector<unsigned char> piece(std::min(kSamplesPerPiece, count) * sample_size);
@@ -97,19 +106,56 @@ void read_sample_run(ByteSource& source, const SampleLayout& layout, std::size_t
   }
 }
 
-std::vector<float> read_samples(ByteSource& source, const SampleLayout& layout, std::size_t count,
-                                VolumeHeader& header) {
-  check_payload(source, layout, count);
-  std::vector<float> samples(count);
-  ConversionTally tally;
-  read_sample_run(source, layout, count, samples.data(), tally);
-  check_tally(source.path(), tally, layout.type, header);
-  return samples;
+namespace {
+
+class PayloadReader final : public SliceReader {
+ public:
+  PayloadReader(const std::filesystem::path& payload, const SampleLayout& layout, const std::array<int, 3>& dims)
+      : source_(payload), layout_(layout), area_(static_cast<std::size_t>(dims[0]) * dims[1]), left_(dims[2]) {
+    source_.skip(layout_.offset, "the data before the samples");
+  }
+  void read(int count, float* out) override {
+    read_sample_run(source_, layout_, area_ * count, out, tally_);
+    check_finite(source_.path(), tally_);
+    left_ -= count;
+    if (left_ == 0) source_.verify_end();
+  }
+  std::vector<std::string> warnings() const override { return tally_warnings(tally_, layout_.type); }
+
+ private:
+  ByteSource source_;
+  SampleLayout layout_;
+  ConversionTally tally_;
+  std::size_t area_;
+  int left_;
+};
+
+class PayloadSource final : public VolumeSource {
+ public:
+  PayloadSource(VolumeHeader header, std::filesystem::path payload, const SampleLayout& layout)
+      : VolumeSource(std::move(header)), payload_(std::move(payload)), layout_(layout) {
+    check_payload(ByteSource(payload_), layout_, voxel_count());
+  }
+  std::unique_ptr<SliceReader> start() const override {
+    return std::make_unique<PayloadReader>(payload_, layout_, dims());
+  }
+
+ private:
+  std::filesystem::path payload_;
+  SampleLayout layout_;
+};
+
+}  // namespace
+
+VolumeSourcePtr payload_source(const std::filesystem::path& path, VolumeHeader header,
+                               const std::filesystem::path& payload, const SampleLayout& layout) {
+  check_volume_header(path, header);
+  return std::make_shared<PayloadSource>(std::move(header), payload, layout);
 }
 
-Volume make_volume(const std::filesystem::path& path, VolumeHeader header, const std::vector<float>& samples) {
+void check_volume_header(const std::filesystem::path& path, const VolumeHeader& header) {
   try {
-    return Volume(std::move(header), samples);
+    check_header(header);
   } catch (const InputError& error) {
     const std::string text = error.what(), prefix = "volume: ";
     throw InputError(one_line(path.string() + ": " + (text.starts_with(prefix) ? text.substr(prefix.size()) : text)));

@@ -7,20 +7,21 @@
 #include <vector>
 
 #include "delvox/volume/read_volume.h"
-#include "delvox/volume/volume.h"
+#include "delvox/volume/volume_source.h"
+#include "volume/sample_type.h"
 
 namespace delvox {
 
 class ByteSource;
-enum class SampleType;
-struct ConversionTally;
 
 /// Throws InputError "path: cause; mend", on one line whatever characters the parts contain.
 [[noreturn]] void fail_input(const std::filesystem::path& path, const std::string& cause, const std::string& mend);
 
-/// Number of samples of a volume of these dims, or InputError if a dim is not in 1..2^31-1 or the volume would not
-/// fit into this machine's memory.
+/// Number of samples of a volume of these dims, or InputError if a dim is not in 1..2^31-1 or the slices that are in
+/// memory at a time would not fit into that of this machine.
 std::size_t checked_voxel_count(const std::filesystem::path& path, const std::array<std::int64_t, 3>& dims);
+/// Throws InputError if a volume with these dims would not fit into this machine's memory as a whole.
+void check_fits_whole(const std::filesystem::path& path, const std::array<std::int64_t, 3>& dims);
 
 /// What the samples of a file are and where they lie.
 struct SampleLayout {
@@ -30,23 +31,22 @@ struct SampleLayout {
   double slope = 1, intercept = 0;
 };
 
-/// Reads `count` samples as float32 from where layout says. Checks that the file can hold them, but after `out` was
-/// allocated: callers with a size from a header use read_samples. Throws InputError.
-void read_sample_run(ByteSource& source, const SampleLayout& layout, std::size_t count, float* out,
-                     ConversionTally& tally);
-/// Throws InputError if a sample is not finite; appends to header.warnings if float32 cannot hold them exactly.
-void check_tally(const std::filesystem::path& path, const ConversionTally& tally, SampleType type,
-                 VolumeHeader& header);
 /// Throws InputError unless the file can hold `count` samples.
 void check_payload(const ByteSource& source, const SampleLayout& layout, std::size_t count);
+/// Reads `count` samples as float32 from where the file stands. Throws InputError.
+void read_sample_run(ByteSource& source, const SampleLayout& layout, std::size_t count, float* out,
+                     ConversionTally& tally);
+/// Throws InputError if a sample is not finite.
+void check_finite(const std::filesystem::path& path, const ConversionTally& tally);
+/// The warning if float32 does not hold all samples exactly.
+std::vector<std::string> tally_warnings(const ConversionTally& tally, SampleType type);
 
-/// Reads `count` samples as float32, appending to header.warnings if float32 cannot hold them exactly.
-/// Checks that the file can hold them before anything is allocated. Throws InputError, also for NaN and infinity.
-std::vector<float> read_samples(ByteSource& source, const SampleLayout& layout, std::size_t count,
-                                VolumeHeader& header);
-
-/// The Volume, its errors prefixed with the file's name.
-Volume make_volume(const std::filesystem::path& path, VolumeHeader header, const std::vector<float>& samples);
+/// Samples that follow each other in `payload`, i fastest. Checks that the file can hold them, and the header; errors
+/// of the header name `path`. Throws InputError.
+VolumeSourcePtr payload_source(const std::filesystem::path& path, VolumeHeader header,
+                               const std::filesystem::path& payload, const SampleLayout& layout);
+/// Throws InputError, with the file's name, for a header that no volume may have.
+void check_volume_header(const std::filesystem::path& path, const VolumeHeader& header);
 
 /// Throws OptionError if options.spacing is set, for formats that state their own.
 void refuse_spacing(const std::filesystem::path& path, const ReadVolumeOptions& options);

@@ -70,32 +70,36 @@ fs::path header_of_pair(const fs::path& image_path) {
              "give NIfTI, Inrimage, TIFF, OpenVDB or raw samples with a JSON sidecar");
 }
 
-Volume read_recognised(const fs::path& path, const ReadVolumeOptions& options) {
+[[noreturn]] void fail_for_memory(const fs::path& path) {
+  fail_input(path, "there is not enough memory for it", "crop or resample the file first");
+}
+
+VolumeSourcePtr open_recognised(const fs::path& path, const ReadVolumeOptions& options) {
   std::error_code error;
-  if (fs::is_directory(path, error)) return read_tiff_folder(path, options);
+  if (fs::is_directory(path, error)) return open_tiff_folder(path, options);
   if (!fs::exists(path, error) && path.native().find_first_of("*?[") != std::string::npos) {
     std::vector<fs::path> files = files_matching(path);
-    if (files.size() == 1) return read_recognised(files[0], options);
-    return read_tiff_files(path, std::move(files), options);
+    if (files.size() == 1) return open_recognised(files[0], options);
+    return open_tiff_files(path, std::move(files), options);
   }
   ByteSource source(path);
   const std::string start = source.peek(kBytesToRecognise);
-  if (looks_like_nifti(start)) return read_nifti(std::move(source), options);
-  if (looks_like_inrimage(start)) return read_inrimage(std::move(source), options);
-  if (looks_like_vdb(start) && !source.compressed()) return read_vdb(std::move(source), options);
-  if (looks_like_tiff(start) && !source.compressed()) return read_tiff_files(path, {path}, options);
-  if (looks_like_raw_json(start)) return read_raw_json(std::move(source), options);
+  if (looks_like_nifti(start)) return open_nifti(std::move(source), options);
+  if (looks_like_inrimage(start)) return open_inrimage(std::move(source), options);
+  if (looks_like_vdb(start) && !source.compressed()) return open_vdb(std::move(source), options);
+  if (looks_like_tiff(start) && !source.compressed()) return open_tiff_files(path, {path}, options);
+  if (looks_like_raw_json(start)) return open_raw_json(std::move(source), options);
   const std::string extension = full_extension(path);
   if (extension == ".img" || extension == ".img.gz") {
     const fs::path header = header_of_pair(path);
-    if (!header.empty()) return read_recognised(header, options);
+    if (!header.empty()) return open_recognised(header, options);
   }
   fail_unrecognised(path, start);
 }
 
 }  // namespace
 
-Volume read_volume(const fs::path& path, const ReadVolumeOptions& options) {
+VolumeSourcePtr open_volume(const fs::path& path, const ReadVolumeOptions& options) {
   if (options.spacing) {
     for (int axis = 0; axis < 3; ++axis) {
       const double spacing = (*options.spacing)[axis];
@@ -103,9 +107,20 @@ Volume read_volume(const fs::path& path, const ReadVolumeOptions& options) {
     }
   }
   try {
-    return read_recognised(path, options);
+    return open_recognised(path, options);
   } catch (const std::bad_alloc&) {
-    fail_input(path, "there is not enough memory for it", "crop or resample the file first");
+    fail_for_memory(path);
+  }
+}
+
+Volume read_volume(const fs::path& path, const ReadVolumeOptions& options) {
+  const VolumeSourcePtr source = open_volume(path, options);
+  const std::array<int, 3>& n = source->dims();
+  check_fits_whole(path, {n[0], n[1], n[2]});
+  try {
+    return load(*source);
+  } catch (const std::bad_alloc&) {
+    fail_for_memory(path);
   }
 }
 

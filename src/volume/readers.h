@@ -9,18 +9,18 @@
 
 namespace delvox {
 
-/// One reader per format. Each takes the file opened at its start, where read_volume has recognised it, and throws
+/// One reader per format. Each takes the file opened at its start, where open_volume has recognised it, and throws
 /// InputError or OptionError.
-Volume read_nifti(ByteSource source, const ReadVolumeOptions& options);
-Volume read_inrimage(ByteSource source, const ReadVolumeOptions& options);
-Volume read_raw_json(ByteSource source, const ReadVolumeOptions& options);
-Volume read_vdb(ByteSource source, const ReadVolumeOptions& options);
+VolumeSourcePtr open_nifti(ByteSource source, const ReadVolumeOptions& options);
+VolumeSourcePtr open_inrimage(ByteSource source, const ReadVolumeOptions& options);
+VolumeSourcePtr open_raw_json(ByteSource source, const ReadVolumeOptions& options);
+VolumeSourcePtr open_vdb(ByteSource source, const ReadVolumeOptions& options);
 
 /// Slices in this order; `name` is what errors call the whole.
-Volume read_tiff_files(const std::filesystem::path& name, std::vector<std::filesystem::path> files,
-                       const ReadVolumeOptions& options);
+VolumeSourcePtr open_tiff_files(const std::filesystem::path& name, std::vector<std::filesystem::path> files,
+                                const ReadVolumeOptions& options);
 /// The TIFF files of a folder in natural order.
-Volume read_tiff_folder(const std::filesystem::path& folder, const ReadVolumeOptions& options);
+VolumeSourcePtr open_tiff_folder(const std::filesystem::path& folder, const ReadVolumeOptions& options);
 /// The files that match a pattern of the shell, in natural order. Throws InputError if there is none.
 std::vector<std::filesystem::path> files_matching(const std::filesystem::path& pattern);
 

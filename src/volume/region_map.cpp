@@ -1,5 +1,7 @@
 #include "volume/region_map.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,64 +12,62 @@
 
 namespace delvox {
 
-// One slice of the padded grid, i fastest.
-struct RegionMap::Slice {
-  const float* samples = nullptr;
-  std::vector<std::uint8_t> inside;
-  std::vector<std::uint32_t> run;
-};
-
-RegionMap::RegionMap(const Volume& volume, const LevelSet& level_set)
-    : level_(level_set.level), nx_(volume.dims()[0] + 2), ny_(volume.dims()[1] + 2), nz_(volume.dims()[2] + 2) {
-  constexpr std::size_t kBatchSamples = std::size_t{1} << 22;
+RegionMap::RegionMap(const VolumeHeader& header, const LevelSet& level_set)
+    : level_set_(level_set),
+      voxel_volume_(std::abs(header.index_to_world.determinant())),
+      nx_(header.dims[0] + 2),
+      ny_(header.dims[1] + 2),
+      nz_(header.dims[2] + 2) {
   const std::size_t area = static_cast<std::size_t>(nx_) * ny_;
-  const int depth = static_cast<int>(std::clamp<std::size_t>(kBatchSamples / area, 2, 64));
-  std::vector<float> batch(area * (depth + 1));
-  Slice lower, upper;
-  for (Slice* slice : {&lower, &upper}) {
-    slice->inside.resize(area);
-    slice->run.resize(area);
-  }
+  lower_.resize(area);
+  upper_.resize(area);
+  starts_.resize(ny_);
   row_begin_.reserve(static_cast<std::size_t>(ny_) * nz_ + 1);
   row_begin_.push_back(0);
-  // Batches overlap by the last slice of the one before, moved to the front.
-  for (int k = 0; k < nz_;) {
-    const int count = std::min(depth, nz_ - k);
-    copy_padded_block(volume, level_set, {-1, -1, k - 1}, {nx_, ny_, count}, batch.data() + area);
-    lower.samples = batch.data();
-    for (int s = 1; s <= count; ++s, ++k) {
-      add_slice(batch.data() + s * area, k, upper);
-      if (k > 0) add_cells(lower, upper);
-      std::swap(lower, upper);
-    }
-    std::copy_n(batch.data() + count * area, area, batch.data());
-  }
-  const VolumeHeader& header = volume.header();
-  number_regions(std::abs(header.index_to_world.determinant()));
+}
+
+void RegionMap::add(const float* samples, int slices) {
+  const std::size_t area = static_cast<std::size_t>(nx_ - 2) * (ny_ - 2);
+  if (slices_ == 0) add_padded_slice(samples, true);
+  for (int k = 0; k < slices; ++k) add_padded_slice(samples + k * area, false);
+  const float* last = samples + (slices - 1) * area;
+  if (slices_ == nz_ - 1) add_padded_slice(last, true);
+}
+
+void RegionMap::finish() {
+  number_regions();
   find_parents();
 }
 
-void RegionMap::add_slice(const float* samples, int k, Slice& slice) {
-  slice.samples = samples;
-  const std::size_t area = static_cast<std::size_t>(nx_) * ny_;
-  for (std::size_t i = 0; i < area; ++i) slice.inside[i] = samples[i] > level_;
+void RegionMap::add_padded_slice(const float* slice, bool in_padding) {
+  tbb::parallel_for(0, ny_, [&](int j) {
+    const int in_image = std::clamp(j - 1, 0, ny_ - 3);
+    float* row = upper_.data() + static_cast<std::size_t>(j) * nx_;
+    pad_row(level_set_, slice + static_cast<std::size_t>(in_image) * (nx_ - 2), nx_ - 2, in_padding || in_image != j - 1,
+            row);
+    std::vector<int>& starts = starts_[j];
+    starts.assign(1, 0);
+    bool sign = false;  // the first sample lies in the padding, outside
+    for (int i = 1; i < nx_; ++i) {
+      if (level_set_.inside(row[i]) == sign) continue;
+      sign = !sign;
+      starts.push_back(i);
+    }
+  });
   for (int j = 0; j < ny_; ++j) {
-    const std::size_t row_offset = static_cast<std::size_t>(j) * nx_;
-    std::uint8_t sign = 1;  // the first sample lies in the padding, outside: it begins a run
-    for (int i = 0; i < nx_; ++i) {
-      if (slice.inside[row_offset + i] != sign) {
-        sign = slice.inside[row_offset + i];
-        joined_.push_back(static_cast<std::uint32_t>(joined_.size()));
-        run_start_.push_back(i);
-      }
-      slice.run[row_offset + i] = static_cast<std::uint32_t>(joined_.size() - 1);
+    for (int start : starts_[j]) {
+      joined_.push_back(static_cast<std::uint32_t>(joined_.size()));
+      run_start_.push_back(start);
     }
     row_begin_.push_back(joined_.size());
-    const std::size_t row = static_cast<std::size_t>(k) * ny_ + j;
+    const std::size_t row = static_cast<std::size_t>(slices_) * ny_ + j;
     if (j > 0) join_rows(row - 1, row);
-    if (k > 0) join_rows(row - ny_, row);
+    if (slices_ > 0) join_rows(row - ny_, row);
   }
   correction_.resize(joined_.size(), 0.0);
+  for (int j = 0; slices_ > 0 && j + 1 < ny_; ++j) add_cells(j);
+  lower_.swap(upper_);
+  ++slices_;
 }
 
 void RegionMap::join_rows(std::size_t row_a, std::size_t row_b) {
@@ -84,32 +84,43 @@ void RegionMap::join_rows(std::size_t row_a, std::size_t row_b) {
   }
 }
 
-void RegionMap::add_cells(const Slice& lower, const Slice& upper) {
-  std::vector<std::uint8_t> column(nx_);  // per i, the signs of the four samples across, at the bits of x = 0
-  for (int j = 0; j + 1 < ny_; ++j) {
-    const std::size_t row = static_cast<std::size_t>(j) * nx_;
-    const std::uint8_t *a = &lower.inside[row], *b = a + nx_, *c = &upper.inside[row], *d = c + nx_;
-    for (int i = 0; i < nx_; ++i) {
-      column[i] = static_cast<std::uint8_t>(a[i] | b[i] << 2 | c[i] << 4 | d[i] << 6);
+// Between two starts of runs the signs stay the same along a row of cells: where the four rows agree, all of them can be
+// passed over at once.
+void RegionMap::add_cells(int j) {
+  const std::size_t row = static_cast<std::size_t>(slices_) * ny_ + j;
+  const std::array<std::size_t, 4> rows{row - ny_, row - ny_ + 1, row, row + 1};
+  Runs run;
+  for (int r = 0; r < 4; ++r) run[r] = static_cast<std::uint32_t>(row_begin_[rows[r]]);
+  const auto end_of = [&](int r) { return run[r] + 1 < row_begin_[rows[r] + 1] ? run_start_[run[r] + 1] : nx_; };
+  constexpr unsigned kAllInside = 0b01010101;  // the signs of the four samples across, at the bits of x = 0
+  unsigned column = 0;
+  for (int i = 0; i + 1 < nx_; ++i) {
+    const int next_start = std::min({end_of(0), end_of(1), end_of(2), end_of(3)});
+    if (column == 0 || column == kAllInside) i = next_start - 1;
+    if (i + 1 >= nx_) return;
+    Runs next = run;
+    unsigned next_column = column;
+    for (int r = 0; r < 4; ++r) {
+      if (end_of(r) != i + 1) continue;
+      ++next[r];
+      next_column ^= 1u << 2 * r;
     }
-    for (int i = 0; i + 1 < nx_; ++i) {
-      const unsigned mask = column[i] | static_cast<unsigned>(column[i + 1]) << 1;
-      if (mask != 0 && mask != 255) add_mixed_cell(lower, upper, row + i, mask);
-    }
+    add_mixed_cell(i, j, run, next, column | next_column << 1);
+    run = next;
+    column = next_column;
   }
 }
 
-void RegionMap::add_mixed_cell(const Slice& lower, const Slice& upper, std::size_t at, unsigned mask) {
+void RegionMap::add_mixed_cell(int i, int j, const Runs& low_i, const Runs& high_i, unsigned mask) {
   std::array<float, 8> values;
   std::array<std::uint32_t, 8> runs;
   for (int corner = 0; corner < 8; ++corner) {
-    const Slice& slice = corner & 4 ? upper : lower;
-    const std::size_t place = at + (corner & 1) + (corner & 2 ? nx_ : 0);
-    values[corner] = slice.samples[place];
-    runs[corner] = slice.run[place];
+    const std::vector<float>& slice = corner & 4 ? upper_ : lower_;
+    values[corner] = slice[static_cast<std::size_t>(j + (corner >> 1 & 1)) * nx_ + i + (corner & 1)];
+    runs[corner] = (corner & 1 ? high_i : low_i)[corner >> 1];
   }
   if (is_ambiguous(mask)) {
-    const CellTopology cell = cell_topology(values, level_);
+    const CellTopology cell = cell_topology(values, level_set_.level);
     weight_ += cell.weight(mask);
     for (int corner = 0; corner < 8; ++corner) {
       if (cell.group[corner] != corner) join(runs[corner], runs[cell.group[corner]]);
@@ -119,7 +130,7 @@ void RegionMap::add_mixed_cell(const Slice& lower, const Slice& upper, std::size
   }
   // Each sample owns an eighth of the cells around it; what the cell holds beyond that is shared by its samples.
   const int inside = std::popcount(mask);
-  const double surplus = inside_fraction(values, level_) - inside / 8.0;
+  const double surplus = inside_fraction(values, level_set_.level) - inside / 8.0;
   for (int corner = 0; corner < 8; ++corner) {
     correction_[runs[corner]] += mask >> corner & 1 ? surplus / inside : -surplus / (8 - inside);
   }
@@ -137,7 +148,7 @@ void RegionMap::join(std::uint32_t a, std::uint32_t b) {
   else joined_[a] = b;
 }
 
-void RegionMap::number_regions(double voxel_volume) {
+void RegionMap::number_regions() {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   // Roots are the smallest runs of their regions, so they are numbered before anything that points to them.
   std::vector<std::uint32_t> number(joined_.size(), kNone);
@@ -156,7 +167,7 @@ void RegionMap::number_regions(double voxel_volume) {
   for_each_run([&](const Run& run) {
     VoxelRegion& region = regions[run.region];
     region.inside = run.inside;
-    region.volume_mm3 += (run.length + correction_[index++]) * voxel_volume;
+    region.volume_mm3 += (run.length + correction_[index++]) * voxel_volume_;
     const std::array<int, 3> low{std::max(run.begin[0], 0), run.begin[1], run.begin[2]};
     const std::array<int, 3> high{std::min(run.begin[0] + run.length, nx_ - 2) - 1, run.begin[1], run.begin[2]};
     const bool in_image = low[0] <= high[0] && low[1] >= 0 && low[1] < ny_ - 2 && low[2] >= 0 && low[2] < nz_ - 2;

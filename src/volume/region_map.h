@@ -12,7 +12,11 @@ namespace delvox {
 /// the padding, so its runs alternate: outside, inside, outside, ...
 class RegionMap {
  public:
-  RegionMap(const Volume& volume, const LevelSet& level_set);
+  RegionMap(const VolumeHeader& header, const LevelSet& level_set);
+  /// Adds the next slices of the image, in order.
+  void add(const float* samples, int slices);
+  /// After all slices: numbers the regions. Only then may the members below be called.
+  void finish();
 
   struct Run {
     std::array<int, 3> begin;  ///< voxel indices, -1 in the padding
@@ -27,18 +31,23 @@ class RegionMap {
   const VoxelRegions& result() const { return result_; }
 
  private:
-  struct Slice;
-  void add_slice(const float* samples, int k, Slice& slice);
+  using Runs = std::array<std::uint32_t, 4>;  // one in each of the four rows around a row of cells
+  void add_padded_slice(const float* slice, bool in_padding);
   void join_rows(std::size_t row_a, std::size_t row_b);
-  void add_cells(const Slice& lower, const Slice& upper);
-  void add_mixed_cell(const Slice& lower, const Slice& upper, std::size_t at, unsigned mask);
+  void add_cells(int j);
+  void add_mixed_cell(int i, int j, const Runs& low_i, const Runs& high_i, unsigned mask);
   std::uint32_t root(std::uint32_t run);
   void join(std::uint32_t a, std::uint32_t b);
-  void number_regions(double voxel_volume);
+  void number_regions();
   void find_parents();
 
-  double level_;
+  LevelSet level_set_;
+  double voxel_volume_;
   int nx_, ny_, nz_;  // of the padded grid
+  int slices_ = 0;    // of it that were added
+  std::vector<float> last_image_slice_;
+  std::vector<float> lower_, upper_;        // the last two slices of the padded grid
+  std::vector<std::vector<int>> starts_;    // of the runs in each row of the slice in hand
   std::vector<std::size_t> row_begin_;   // per row, its first run; one more at the end
   std::vector<std::int32_t> run_start_;
   std::vector<std::uint32_t> joined_;    // union-find, later the region

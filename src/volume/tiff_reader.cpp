@@ -9,7 +9,7 @@
 #include "volume/natural_order.h"
 #include "volume/read_support.h"
 #include "volume/readers.h"
-#include "volume/tiff_file.h"
+#include "volume/tiff_slices.h"
 
 namespace delvox {
 namespace {
@@ -50,24 +50,18 @@ std::vector<fs::path> tiff_files_in(const fs::path& folder, std::vector<std::str
   return files;
 }
 
-/// Where a page is: pages of all files are numbered through.
-struct PageRef {
-  std::size_t file;
-  int page;
-};
-
 class TiffStack {
  public:
-  TiffStack(fs::path name, std::vector<fs::path> files, std::vector<std::string> warnings)
-      : name_(std::move(name)), files_(std::move(files)) {
+  TiffStack(fs::path name, std::vector<fs::path> files, std::vector<std::string> warnings) {
+    slices_.name = std::move(name);
+    slices_.files = std::move(files);
     header_.warnings = std::move(warnings);
   }
-  Volume read(const ReadVolumeOptions& options);
+  VolumeSourcePtr open(const ReadVolumeOptions& options);
 
  private:
   void survey();
   void survey_file(std::size_t file);
-  void compare(const TiffPage& page, std::size_t file, int number) const;
   void select_slices(const ReadVolumeOptions& options);
   void set_affine(const ReadVolumeOptions& options);
   void warn(const std::string& text) {
@@ -75,39 +69,17 @@ class TiffStack {
       header_.warnings.push_back(text);
     }
   }
-  std::vector<float> read_pages();
   void check_contiguous();
-  std::vector<float> read_contiguous();
-  void calibrate(std::vector<float>& samples) const;
 
-  fs::path name_;
-  std::vector<fs::path> files_;
+  TiffSlices slices_;
   VolumeHeader header_;
-  TiffPage first_;
   TiffGeometry geometry_;
-  std::vector<PageRef> pages_;
-  bool contiguous_ = false;  // ImageJ's large stacks: one page, the other slices follow its samples
-  SampleLayout layout_{};    // of the first slice, if contiguous
 };
-
-void TiffStack::compare(const TiffPage& page, std::size_t file, int number) const {
-  const bool same = page.width == first_.width && page.height == first_.height && page.type == first_.type &&
-                    page.bits == first_.bits && page.min_is_white == first_.min_is_white;
-  if (same) return;
-  const auto describe = [&](std::size_t f, int n) {
-    return files_.size() > 1 ? files_[f].filename().string() : "page " + std::to_string(n);
-  };
-  fail_input(name_,
-             "the slices differ: " + describe(pages_[0].file, pages_[0].page) + " is " + first_.summary() + ", " +
-                 describe(file, number) + " is " + page.summary() +
-                 (page.min_is_white != first_.min_is_white ? " with black and white swapped" : ""),
-             "give slices of one size and type");
-}
 
 void TiffStack::survey_file(std::size_t file) {
   // Opening by ByteSource first: its messages for missing or unreadable files are clearer than libtiff's.
-  ByteSource probe(files_[file]);
-  TiffFile tiff(files_[file]);
+  ByteSource probe(slices_.files[file]);
+  TiffFile tiff(slices_.files[file]);
   std::uint64_t bytes = 0;
   int number = 0;
   do {
@@ -117,45 +89,45 @@ void TiffStack::survey_file(std::size_t file) {
       warn("thumbnail or mask pages were left out");
       continue;
     }
-    if (pages_.empty()) first_ = page;
-    compare(page, file, number);
+    if (slices_.pages.empty()) slices_.first = page;
+    slices_.compare(page, file, number);
     if (page.orientation != 1) warn("the orientation tag is ignored: rows and columns are as stored");
     if (page.min_is_white && !page.inverted()) {
       warn("black and white are swapped (MinIsWhite), which is ignored for floating samples");
     }
-    pages_.push_back({file, number});
+    slices_.pages.push_back({file, number});
     bytes += page.pixel_count() * page.bits / 8;
     // Pages may not share samples: a small file could then claim any number of slices.
-    if (bytes > tiff.capacity()) fail_input(files_[file], "its pages hold more than the file can", "copy it again");
+    if (bytes > tiff.capacity()) fail_input(slices_.files[file], "its pages hold more than the file can", "copy it again");
   } while (tiff.next_page());
   for (const std::string& text : tiff.warnings()) warn(text);
 }
 
 void TiffStack::survey() {
-  for (std::size_t file = 0; file < files_.size(); ++file) survey_file(file);
-  if (pages_.empty()) fail_input(name_, "it holds thumbnails or masks only", "give the images themselves");
-  geometry_ = parse_tiff_geometry(first_, header_.warnings);
-  contiguous_ = pages_.size() == 1 && geometry_.images > 1 && !first_.compressed && first_.bits >= 8;
-  if (contiguous_) {
+  for (std::size_t file = 0; file < slices_.files.size(); ++file) survey_file(file);
+  if (slices_.pages.empty()) fail_input(slices_.name, "it holds thumbnails or masks only", "give the images themselves");
+  geometry_ = parse_tiff_geometry(slices_.first, header_.warnings);
+  slices_.contiguous = slices_.pages.size() == 1 && geometry_.images > 1 && !slices_.first.compressed && slices_.first.bits >= 8;
+  if (slices_.contiguous) {
     check_contiguous();
-  } else if (geometry_.images > 1 && static_cast<std::size_t>(geometry_.images) != pages_.size()) {
+  } else if (geometry_.images > 1 && static_cast<std::size_t>(geometry_.images) != slices_.pages.size()) {
     warn("ImageJ's description counts " + std::to_string(geometry_.images) + " images, there are " +
-         std::to_string(pages_.size()));
+         std::to_string(slices_.pages.size()));
   }
 }
 
 void TiffStack::check_contiguous() {
-  const TiffFile tiff(files_[0]);
-  const ByteSource source(files_[0]);
-  layout_ = SampleLayout{first_.type, tiff.big_endian(), tiff.first_sample_offset()};
-  layout_.slope = first_.slope();
-  layout_.intercept = first_.intercept();
-  check_payload(source, layout_, first_.pixel_count() * static_cast<std::size_t>(geometry_.images));
+  const TiffFile tiff(slices_.files[0]);
+  const ByteSource source(slices_.files[0]);
+  slices_.layout = SampleLayout{slices_.first.type, tiff.big_endian(), tiff.first_sample_offset()};
+  slices_.layout.slope = slices_.first.slope();
+  slices_.layout.intercept = slices_.first.intercept();
+  check_payload(source, slices_.layout, slices_.first.pixel_count() * static_cast<std::size_t>(geometry_.images));
 }
 
 /// Picks one channel and frame of an ImageJ hyperstack, whose pages run through channels, then slices, then frames.
 void TiffStack::select_slices(const ReadVolumeOptions& options) {
-  const std::uint64_t total = contiguous_ ? static_cast<std::uint64_t>(geometry_.images) : pages_.size();
+  const std::uint64_t total = slices_.contiguous ? static_cast<std::uint64_t>(geometry_.images) : slices_.pages.size();
   const std::uint64_t channels = static_cast<std::uint64_t>(geometry_.channels);
   const std::uint64_t frames = static_cast<std::uint64_t>(geometry_.frames);
   std::uint64_t slices = total;
@@ -166,16 +138,16 @@ void TiffStack::select_slices(const ReadVolumeOptions& options) {
     if (total % volumes != 0) volumes = 1;
     slices = total / volumes;
   }
-  check_volume_index(name_, options, volumes, header_);
+  check_volume_index(slices_.name, options, volumes, header_);
   const std::uint64_t index = static_cast<std::uint64_t>(options.volume_index);
   const std::uint64_t start = index % channels + index / channels * slices * channels;
-  std::vector<PageRef> chosen;
-  checked_voxel_count(name_, {first_.width, first_.height, static_cast<std::int64_t>(slices)});
+  std::vector<TiffPageRef> chosen;
+  checked_voxel_count(slices_.name, {slices_.first.width, slices_.first.height, static_cast<std::int64_t>(slices)});
   for (std::uint64_t k = 0; k < slices; ++k) {
     const std::uint64_t n = volumes == 1 ? k : start + k * channels;
-    chosen.push_back(contiguous_ ? PageRef{0, static_cast<int>(n) + 1} : pages_[n]);
+    chosen.push_back(slices_.contiguous ? TiffPageRef{0, static_cast<int>(n) + 1} : slices_.pages[n]);
   }
-  pages_ = std::move(chosen);
+  slices_.pages = std::move(chosen);
 }
 
 void TiffStack::set_affine(const ReadVolumeOptions& options) {
@@ -195,64 +167,23 @@ void TiffStack::set_affine(const ReadVolumeOptions& options) {
   }
   Point3 origin{geometry_.origin[0], geometry_.origin[1], geometry_.origin[2]};
   if (options.spacing) origin = {};
-  header_.index_to_world = axis_aligned(name_, spacing, origin);
+  header_.index_to_world = axis_aligned(slices_.name, spacing, origin);
   if (geometry_.frame == "RAS") header_.frame = Frame::kRas;
   if (geometry_.frame == "LPS") header_.frame = Frame::kLps;
 }
 
-std::vector<float> TiffStack::read_pages() {
-  const std::size_t slice = first_.pixel_count();
-  std::vector<float> samples(slice * pages_.size());
-  ConversionTally tally;
-  for (std::size_t k = 0; k < pages_.size();) {
-    const std::size_t file = pages_[k].file;
-    TiffFile tiff(files_[file]);
-    for (int number = 1; k < pages_.size() && pages_[k].file == file; ++number) {
-      if (number > 1 && !tiff.next_page()) fail_input(files_[file], "it changed while it was read", "try again");
-      if (number != pages_[k].page) continue;
-      const TiffPage page = tiff.page();
-      compare(page, file, number);
-      tiff.read_page(page, samples.data() + slice * k, tally);
-      ++k;
-    }
-    for (const std::string& text : tiff.warnings()) warn(text);
-  }
-  check_tally(name_, tally, first_.type, header_);
-  return samples;
-}
-
-std::vector<float> TiffStack::read_contiguous() {
-  const std::size_t slice = first_.pixel_count();
-  const std::uint64_t slice_bytes = slice * size_of(first_.type);
-  ByteSource source(files_[0]);
-  std::vector<float> samples(slice * pages_.size());
-  ConversionTally tally;
-  for (std::size_t k = 0; k < pages_.size(); ++k) {
-    SampleLayout layout = layout_;
-    layout.offset += slice_bytes * static_cast<std::uint64_t>(pages_[k].page - 1);
-    read_sample_run(source, layout, slice, samples.data() + slice * k, tally);
-  }
-  check_tally(name_, tally, first_.type, header_);
-  return samples;
-}
-
-void TiffStack::calibrate(std::vector<float>& samples) const {
-  if (geometry_.slope == 1 && geometry_.intercept == 0) return;
-  for (float& sample : samples) {
-    sample = static_cast<float>(geometry_.slope * static_cast<double>(sample) + geometry_.intercept);
-  }
-}
-
-Volume TiffStack::read(const ReadVolumeOptions& options) {
+VolumeSourcePtr TiffStack::open(const ReadVolumeOptions& options) {
   survey();
   select_slices(options);
-  header_.dims = {static_cast<int>(first_.width), static_cast<int>(first_.height), static_cast<int>(pages_.size())};
+  const TiffPage& first = slices_.first;
+  header_.dims = {static_cast<int>(first.width), static_cast<int>(first.height),
+                  static_cast<int>(slices_.pages.size())};
   header_.format = "TIFF";
-  header_.sample_type = first_.bits < 8 ? "uint" + std::to_string(first_.bits) : to_string(first_.type);
+  header_.sample_type = first.bits < 8 ? "uint" + std::to_string(first.bits) : to_string(first.type);
   set_affine(options);
-  std::vector<float> samples = contiguous_ ? read_contiguous() : read_pages();
-  calibrate(samples);
-  return make_volume(name_, std::move(header_), samples);
+  slices_.slope = geometry_.slope;
+  slices_.intercept = geometry_.intercept;
+  return tiff_source(std::move(header_), std::move(slices_));
 }
 
 }  // namespace
@@ -275,14 +206,14 @@ std::vector<fs::path> files_matching(const fs::path& pattern) {
   return files;
 }
 
-Volume read_tiff_files(const fs::path& name, std::vector<fs::path> files, const ReadVolumeOptions& options) {
-  return TiffStack(name, std::move(files), {}).read(options);
+VolumeSourcePtr open_tiff_files(const fs::path& name, std::vector<fs::path> files, const ReadVolumeOptions& options) {
+  return TiffStack(name, std::move(files), {}).open(options);
 }
 
-Volume read_tiff_folder(const fs::path& folder, const ReadVolumeOptions& options) {
+VolumeSourcePtr open_tiff_folder(const fs::path& folder, const ReadVolumeOptions& options) {
   std::vector<std::string> warnings;
   std::vector<fs::path> files = tiff_files_in(folder, warnings);
-  return TiffStack(folder, std::move(files), std::move(warnings)).read(options);
+  return TiffStack(folder, std::move(files), std::move(warnings)).open(options);
 }
 
 }  // namespace delvox

@@ -67,6 +67,7 @@ openvdb::CoordBBox extent(const fs::path& path, const VdbGrid& vdb, const openvd
   if (vdb.dims) {
     const std::array<std::int64_t, 3>& n = *vdb.dims;
     checked_voxel_count(path, n);
+    check_fits_whole(path, n);
     const auto last = [&](int axis) { return static_cast<int>(n[axis] - 1); };
     return {openvdb::Coord(0), openvdb::Coord(last(0), last(1), last(2))};
   }
@@ -74,6 +75,7 @@ openvdb::CoordBBox extent(const fs::path& path, const VdbGrid& vdb, const openvd
   if (box.empty()) fail_input(path, "the grid has no active voxel", "give a file with samples");
   std::array<std::int64_t, 3> dims;
   for (int axis = 0; axis < 3; ++axis) dims[axis] = std::int64_t{box.max()[axis]} - box.min()[axis] + 1;
+  check_fits_whole(path, dims);
   checked_voxel_count(path, dims);
   return box;
 }
@@ -144,11 +146,9 @@ std::vector<float> samples_of(const openvdb::GridBase::Ptr& grid, const openvdb:
 }
 
 void check_finite(const fs::path& path, const std::vector<float>& samples) {
-  std::size_t bad = 0;
-  for (float sample : samples) bad += std::isfinite(sample) ? 0 : 1;
-  if (bad == 0) return;
-  fail_input(path, std::to_string(bad) + " samples are NaN, infinite or beyond float32",
-             "replace them first, e.g. by the background value");
+  ConversionTally tally;
+  for (float sample : samples) tally.not_finite += std::isfinite(sample) ? 0 : 1;
+  check_finite(path, tally);
 }
 
 /// FNV-1a of the file's content stands in for the random UUID that OpenVDB writes: same volume, same bytes.
@@ -189,7 +189,7 @@ bool looks_like_vdb(std::string_view start) {
   return magic == kMagic;
 }
 
-Volume read_vdb(ByteSource source, const ReadVolumeOptions& options) {
+VolumeSourcePtr open_vdb(ByteSource source, const ReadVolumeOptions& options) {
   const fs::path path = source.path();
   refuse_spacing(path, options);
   VolumeHeader header;
@@ -203,9 +203,10 @@ Volume read_vdb(ByteSource source, const ReadVolumeOptions& options) {
   header.sample_type = vdb.sample_type;
   header.frame = vdb.frame;
   if (!vdb.dims) header.warnings.push_back("OpenVDB states no unit of length; millimetres assumed");
-  const std::vector<float> samples = samples_of(grid, box);
+  check_volume_header(path, header);
+  std::vector<float> samples = samples_of(grid, box);
   check_finite(path, samples);
-  return make_volume(path, std::move(header), samples);
+  return source_of(std::move(header), std::move(samples));
 }
 
 void write_vdb(const Volume& volume, const fs::path& path) {

@@ -1,42 +1,13 @@
-#include "volume/volume_impl.h"
-
-#include <openvdb/tools/Dense.h>
-
 #include <algorithm>
 #include <cmath>
 #include <mutex>
 
 #include "delvox/core/errors.h"
+#include "delvox/volume/volume_source.h"
+#include "volume/grid_builder.h"
+#include "volume/volume_impl.h"
 
 namespace delvox {
-namespace {
-
-using openvdb::Coord;
-using openvdb::CoordBBox;
-using XyzDense = openvdb::tools::Dense<float, openvdb::tools::LayoutXYZ>;
-
-void check_header(const VolumeHeader& header, std::size_t sample_count) {
-  std::size_t expected = 1;
-  for (int n : header.dims) {
-    if (n < 1) throw InputError("volume: a dimension is below 1; check the header");
-    expected *= static_cast<std::size_t>(n);
-  }
-  if (expected != sample_count) throw InputError("volume: the number of samples is not the product of the dimensions");
-  for (const auto& row : header.index_to_world.rows) {
-    for (double entry : row) {
-      if (!std::isfinite(entry)) throw InputError("volume: the affine is not finite; check spacing and origin");
-    }
-  }
-  const Affine3& affine = header.index_to_world;
-  const double volume_of_unit_columns =
-      affine.determinant() / (norm(affine.column(0)) * norm(affine.column(1)) * norm(affine.column(2)));
-  if (!(std::abs(volume_of_unit_columns) > 1e-6)) {
-    throw InputError("volume: the affine is singular; check spacing and direction");
-  }
-}
-
-}  // namespace
-
 Vector3 VolumeHeader::spacing() const {
   return {norm(index_to_world.column(0)), norm(index_to_world.column(1)), norm(index_to_world.column(2))};
 }
@@ -83,32 +54,23 @@ openvdb::math::Transform::Ptr to_openvdb_transform(const Affine3& affine) {
 }
 
 Volume::Volume(VolumeHeader header, const std::vector<float>& samples) {
-  check_header(header, samples.size());
-  initialize_openvdb();
-  auto impl = std::make_shared<Impl>();
-  impl->header = std::move(header);
-  const std::array<int, 3> dims = impl->header.dims;
-  float low = samples.front(), high = samples.front();
-  for (float sample : samples) {
-    if (!std::isfinite(sample)) throw InputError("volume: a sample is not a finite number; mask NaN and infinity first");
-    low = std::min(low, sample);
-    high = std::max(high, sample);
+  check_header(header);
+  const std::array<int, 3> dims = header.dims;
+  const std::size_t area = static_cast<std::size_t>(dims[0]) * dims[1];
+  if (area * dims[2] != samples.size()) {
+    throw InputError("volume: the number of samples is not the product of the dimensions");
   }
-  impl->min = low;
-  impl->max = high;
-  impl->grid = openvdb::FloatGrid::create(0.0f);
-  impl->grid->setName("density");
-  try {
-    impl->grid->setTransform(to_openvdb_transform(impl->header.index_to_world));
-  } catch (const openvdb::ArithmeticError&) {
-    // OpenVDB calls every determinant below 3e-15 singular, whatever the shape.
-    throw InputError("volume: the voxels are below 3e-15 mm^3, too small for OpenVDB; state lengths in a larger unit");
+  if (!std::all_of(samples.begin(), samples.end(), [](float sample) { return std::isfinite(sample); })) {
+    throw InputError("volume: a sample is not a finite number; mask NaN and infinity first");
   }
-  const CoordBBox box(Coord(0), Coord(dims[0] - 1, dims[1] - 1, dims[2] - 1));
-  const XyzDense dense(box, const_cast<float*>(samples.data()));
-  openvdb::tools::copyFromDense(dense, *impl->grid, 0.0f, /*serial=*/true);
-  impl_ = std::move(impl);
+  GridBuilder builder(std::move(header), std::nullopt);
+  for (int k = 0; k < dims[2]; k += kSlabSlices) {
+    builder.add(samples.data() + k * area, std::min(kSlabSlices, dims[2] - k));
+  }
+  impl_ = builder.finish();
 }
+
+Volume::Volume(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
 
 const VolumeHeader& Volume::header() const { return impl_->header; }
 
@@ -117,12 +79,10 @@ std::size_t Volume::voxel_count() const {
   return static_cast<std::size_t>(n[0]) * n[1] * n[2];
 }
 
-float Volume::value(int i, int j, int k) const { return impl_->grid->tree().getValue(Coord(i, j, k)); }
+float Volume::value(int i, int j, int k) const { return impl_->grid->tree().getValue(openvdb::Coord(i, j, k)); }
 
 void Volume::copy_block(const std::array<int, 3>& begin, const std::array<int, 3>& size, float* out) const {
-  const Coord low(begin[0], begin[1], begin[2]);
-  XyzDense dense(CoordBBox(low, low.offsetBy(size[0] - 1, size[1] - 1, size[2] - 1)), out);
-  openvdb::tools::copyToDense(*impl_->grid, dense, /*serial=*/true);
+  copy_voxels(*impl_->grid, begin, size, out);
 }
 
 std::vector<float> Volume::samples() const {

@@ -1,9 +1,8 @@
 #include "delvox/volume/voxel_topology.h"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
+#include <tbb/parallel_for.h>
 
+#include "volume/grid_editor.h"
 #include "volume/region_map.h"
 
 namespace delvox {
@@ -44,40 +43,54 @@ std::vector<bool> regions_to_change(const std::vector<VoxelRegion>& regions, con
   return changed;
 }
 
+RegionMap map_regions(const Volume& volume, const LevelSet& level_set) {
+  RegionMap map(volume.header(), level_set);
+  for_each_slab(*source_of(volume), [&](const float* samples, int, int slices) { map.add(samples, slices); });
+  map.finish();
+  return map;
+}
+
 }  // namespace
 
 VoxelTopology count_topology(const Volume& volume, const Isosurface& surface) {
   return list_regions(volume, surface).topology;
 }
 
+std::vector<VoxelTopology> count_topologies(const VolumeSource& source, const std::vector<Isosurface>& surfaces) {
+  std::vector<RegionMap> maps;
+  for (const Isosurface& surface : surfaces) maps.emplace_back(source.header(), LevelSet(surface));
+  for_each_slab(source, [&](const float* samples, int, int slices) {
+    tbb::parallel_for(std::size_t{0}, maps.size(), [&](std::size_t n) { maps[n].add(samples, slices); });
+  });
+  std::vector<VoxelTopology> result;
+  for (RegionMap& map : maps) {
+    map.finish();
+    result.push_back(map.result().topology);
+  }
+  return result;
+}
+
 VoxelRegions list_regions(const Volume& volume, const Isosurface& surface) {
-  return RegionMap(volume, LevelSet(surface)).result();
+  return map_regions(volume, LevelSet(surface)).result();
 }
 
 FilteredVolume filter_components(const Volume& volume, const Isosurface& surface, const ComponentFilter& filter) {
   const LevelSet level_set(surface);
-  const RegionMap map(volume, level_set);
+  const RegionMap map = map_regions(volume, level_set);
   FilterReport report;
   const std::vector<VoxelRegion>& regions = map.result().regions;
   const std::vector<bool> changed = regions_to_change(regions, filter, report);
   if (report.removed_components + report.filled_cavities == 0) return {volume, report};
 
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  float just_inside = static_cast<float>(level_set.level);
-  if (!level_set.inside(just_inside)) just_inside = std::nextafter(just_inside, kInfinity);
-  const float just_outside = std::nextafter(just_inside, -kInfinity);
   const std::vector<bool> inside = signs_after(regions, changed);
-  std::vector<float> samples = volume.samples();
-  const std::array<int, 3>& dims = volume.dims();
+  const float just_inside = level_set.nearest(true), just_outside = level_set.nearest(false);
+  GridEditor editor(volume);
   map.for_each_run([&](const RegionMap::Run& run) {
     // Runs of changed regions lie in the image: the padding belongs to the outermost region, which never changes.
     if (inside[run.region] == run.inside) return;
-    const std::size_t begin =
-        (static_cast<std::size_t>(run.begin[2]) * dims[1] + run.begin[1]) * dims[0] + run.begin[0];
-    const float value = level_set.sign * (run.inside ? just_outside : just_inside);
-    std::fill_n(samples.begin() + static_cast<std::ptrdiff_t>(begin), run.length, value);
+    editor.set_run(run.begin, run.length, run.inside ? just_outside : just_inside);
   });
-  return {Volume(volume.header(), samples), report};
+  return {editor.finish(), report};
 }
 
 }  // namespace delvox

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <cstdarg>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "core/output_file.h"
 #include "delvox/core/errors.h"
@@ -16,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_stateable(const Volume& volume, const fs::path& path) {
+void check_stateable(const VolumeSource& volume, const fs::path& path) {
   const Affine3& affine = volume.header().index_to_world;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
@@ -74,15 +76,17 @@ TiffPtr open_tiff(const fs::path& path, bool big, std::string& error) {
   return tiff;
 }
 
-bool write_page(TIFF* tiff, const VolumeHeader& header, const float* samples, bool first, const std::string& text) {
+/// Samples as they are written: float32, or the whole numbers of 16 bits that they are.
+bool write_page(TIFF* tiff, const VolumeHeader& header, const float* samples, bool uint16, bool first,
+                const std::string& text) {
   const std::uint32_t width = static_cast<std::uint32_t>(header.dims[0]);
   const std::uint32_t height = static_cast<std::uint32_t>(header.dims[1]);
   const Vector3 spacing = header.spacing();
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, width);
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, height);
-  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 32);
+  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, uint16 ? 16 : 32);
   TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
-  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
+  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, uint16 ? SAMPLEFORMAT_UINT : SAMPLEFORMAT_IEEEFP);
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, height);
@@ -91,17 +95,22 @@ bool write_page(TIFF* tiff, const VolumeHeader& header, const float* samples, bo
   TIFFSetField(tiff, TIFFTAG_XRESOLUTION, 1 / spacing.x);
   TIFFSetField(tiff, TIFFTAG_YRESOLUTION, 1 / spacing.y);
   if (first) TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, text.c_str());
-  const tmsize_t size = static_cast<tmsize_t>(sizeof(float)) * width * height;
-  return TIFFWriteEncodedStrip(tiff, 0, const_cast<float*>(samples), size) == size && TIFFWriteDirectory(tiff) == 1;
+  const std::size_t count = std::size_t{width} * height;
+  std::vector<std::uint16_t> shorts;
+  if (uint16) shorts.assign(samples, samples + count);
+  const tmsize_t size = static_cast<tmsize_t>(count * (uint16 ? sizeof(std::uint16_t) : sizeof(float)));
+  void* data = uint16 ? static_cast<void*>(shorts.data()) : const_cast<float*>(samples);
+  return TIFFWriteEncodedStrip(tiff, 0, data, size) == size && TIFFWriteDirectory(tiff) == 1;
 }
 
 }  // namespace
 
-void write_tiff(const Volume& volume, const fs::path& path) {
+void write_tiff(const VolumeSource& volume, const fs::path& path) {
   check_stateable(volume, path);
   // Classic TIFF counts bytes in 32 bits.
   constexpr std::size_t kClassicLimit = std::size_t{4000} << 20;
-  const bool big = volume.voxel_count() * sizeof(float) > kClassicLimit;
+  const bool uint16 = volume.header().format == "phantom" && volume.header().sample_type == "uint16";
+  const bool big = volume.voxel_count() * (uint16 ? sizeof(std::uint16_t) : sizeof(float)) > kClassicLimit;
   const std::string text = description(volume.header());
   OutputFile file(path);
   std::string error;
@@ -109,9 +118,9 @@ void write_tiff(const Volume& volume, const fs::path& path) {
   bool good = tiff != nullptr;
   const std::size_t slice = static_cast<std::size_t>(volume.dims()[0]) * volume.dims()[1];
   if (good) {
-    for_each_slab(volume, [&](const float* samples, int first_k, std::size_t count) {
-      for (std::size_t n = 0; n < count / slice; ++n) {
-        good = good && write_page(tiff.get(), volume.header(), samples + n * slice, first_k == 0 && n == 0, text);
+    for_each_slab(volume, [&](const float* samples, int first_k, int slices) {
+      for (int n = 0; n < slices; ++n) {
+        good = good && write_page(tiff.get(), volume.header(), samples + n * slice, uint16, first_k + n == 0, text);
       }
     });
   }

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <vector>
 
-#include "delvox/volume/volume.h"
+#include "delvox/volume/volume_source.h"
 
 namespace delvox {
 
 /// One writer per format; see write_volume.
 void write_nifti(const Volume& volume, const std::filesystem::path& path, bool compressed);
-void write_tiff(const Volume& volume, const std::filesystem::path& path);
+void write_tiff(const VolumeSource& volume, const std::filesystem::path& path);
 void write_raw_json(const Volume& volume, const std::filesystem::path& path);
 void write_vdb(const Volume& volume, const std::filesystem::path& path);
 

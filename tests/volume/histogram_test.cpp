@@ -76,20 +76,20 @@ Volume volume_of(std::array<int, 3> dims, const std::vector<float>& samples) {
 
 TEST(Histogram, CountsEverySampleInItsBin) {
   const std::vector<float> samples{0, 0.5f, 1, 1.5f, 2, 3.99f, 4};
-  const Histogram histogram = make_histogram(samples, 4);
+  const Histogram histogram = SampleStatistics(samples).histogram(4);
   EXPECT_EQ(histogram.low, 0);
   EXPECT_EQ(histogram.high, 4);
   EXPECT_EQ(histogram.bin_width(), 1);
   EXPECT_EQ(histogram.counts, (std::vector<std::size_t>{2, 2, 1, 2}));
-  EXPECT_EQ(make_histogram(std::vector<float>{7, 7}, 3).counts, (std::vector<std::size_t>{2, 0, 0}));
-  EXPECT_THROW(make_histogram(samples, 0), OptionError);
-  EXPECT_THROW(make_histogram(std::vector<float>{}, 4), OptionError);
+  EXPECT_EQ(SampleStatistics(std::vector<float>{7, 7}).histogram(3).counts, (std::vector<std::size_t>{2, 0, 0}));
+  EXPECT_THROW(SampleStatistics(samples).histogram(0), OptionError);
+  EXPECT_THROW(SampleStatistics(std::vector<float>{}).histogram(4), OptionError);
 }
 
 TEST(Histogram, LosesNoSampleAcrossThreads) {
   const Volume volume = make_phantom("gyroid");
   const auto samples = volume.samples();
-  const Histogram histogram = make_histogram(samples, 17);
+  const Histogram histogram = SampleStatistics(samples).histogram(17);
   EXPECT_EQ(std::accumulate(histogram.counts.begin(), histogram.counts.end(), std::size_t{0}), samples.size());
 }
 
@@ -100,7 +100,7 @@ TEST(Percentiles, EqualSortingAndInterpolating) {
     samples.push_back(1e30f);
     samples.push_back(-1e-30f);
     const std::vector<double> percents{0, 0.1, 1, 2.5, 10, 33.3, 50, 75, 97.5, 99.9, 100};
-    const std::vector<double> found = percentiles(samples, percents);
+    const std::vector<double> found = SampleStatistics(samples).percentiles(percents);
     std::vector<float> sorted = samples;
     std::sort(sorted.begin(), sorted.end());
     for (std::size_t i = 0; i < percents.size(); ++i) {
@@ -113,9 +113,9 @@ TEST(Percentiles, EqualSortingAndInterpolating) {
 }
 
 TEST(Percentiles, OfOneSampleIsThatSample) {
-  EXPECT_EQ(percentiles(std::vector<float>{-3.5f}, std::vector<double>{0, 50, 100}), (std::vector<double>(3, -3.5)));
-  EXPECT_THROW(percentiles(std::vector<float>{1}, std::vector<double>{100.1}), OptionError);
-  EXPECT_THROW(percentiles(std::vector<float>{1}, std::vector<double>{std::nan("")}), OptionError);
+  EXPECT_EQ(SampleStatistics(std::vector<float>{-3.5f}).percentiles(std::vector<double>{0, 50, 100}), (std::vector<double>(3, -3.5)));
+  EXPECT_THROW(SampleStatistics(std::vector<float>{1}).percentiles(std::vector<double>{100.1}), OptionError);
+  EXPECT_THROW(SampleStatistics(std::vector<float>{1}).percentiles(std::vector<double>{std::nan("")}), OptionError);
 }
 
 TEST(Otsu, EqualsBruteForceOnBimodalIntegers) {
@@ -128,7 +128,7 @@ TEST(Otsu, EqualsBruteForceOnBimodalIntegers) {
       best_threshold = threshold;
     }
   }
-  EXPECT_EQ(otsu_isovalues(samples, 2), std::vector<double>{best_threshold});
+  EXPECT_EQ(SampleStatistics(samples).otsu_isovalues(2), std::vector<double>{best_threshold});
 }
 
 TEST(Otsu, EqualsBruteForceForThreeClasses) {
@@ -145,12 +145,12 @@ TEST(Otsu, EqualsBruteForceForThreeClasses) {
       }
     }
   }
-  EXPECT_EQ(otsu_isovalues(samples, 3), best_thresholds);
+  EXPECT_EQ(SampleStatistics(samples).otsu_isovalues(3), best_thresholds);
 }
 
 TEST(Otsu, FourClassesBeatEveryNeighbouringChoice) {
   const std::vector<float> samples = tissues({0, 30, 60, 100}, 6, true);
-  const std::vector<double> thresholds = otsu_isovalues(samples, 4);
+  const std::vector<double> thresholds = SampleStatistics(samples).otsu_isovalues(4);
   ASSERT_EQ(thresholds.size(), 3u);
   const double best = within_variance(samples, thresholds);
   for (int move = 0; move < 125; ++move) {
@@ -169,30 +169,30 @@ TEST(Otsu, FloatSamplesAreWithinABinOfBruteForce) {
   const std::vector<float> samples = tissues({-0.3, 0.8}, 0.1, false, 100);
   double best = std::numeric_limits<double>::infinity();
   for (double threshold : gaps(samples)) best = std::min(best, within_variance(samples, {threshold}));
-  const std::vector<double> thresholds = otsu_isovalues(samples, 2);
+  const std::vector<double> thresholds = SampleStatistics(samples).otsu_isovalues(2);
   ASSERT_EQ(thresholds.size(), 1u);
   EXPECT_LE(within_variance(samples, thresholds), best * (1 + 1e-4));
 }
 
 TEST(Otsu, LiesMidwayBetweenLabelsSoThatNothingTies) {
-  EXPECT_EQ(otsu_isovalues(std::vector<float>{0, 0, 0, 255, 255}, 2), std::vector<double>{127.5});
-  EXPECT_EQ(otsu_isovalues(std::vector<float>{3, 3, 4}, 2), std::vector<double>{3.5});
-  EXPECT_EQ(otsu_isovalues(std::vector<float>{0, 1, 2}, 3), (std::vector<double>{0.5, 1.5}));
-  const std::vector<double> thresholds = otsu_isovalues(std::vector<float>{0, 0, 0.25f, 0.25f, 1, 1}, 3);
+  EXPECT_EQ(SampleStatistics(std::vector<float>{0, 0, 0, 255, 255}).otsu_isovalues(2), std::vector<double>{127.5});
+  EXPECT_EQ(SampleStatistics(std::vector<float>{3, 3, 4}).otsu_isovalues(2), std::vector<double>{3.5});
+  EXPECT_EQ(SampleStatistics(std::vector<float>{0, 1, 2}).otsu_isovalues(3), (std::vector<double>{0.5, 1.5}));
+  const std::vector<double> thresholds = SampleStatistics(std::vector<float>{0, 0, 0.25f, 0.25f, 1, 1}).otsu_isovalues(3);
   ASSERT_EQ(thresholds.size(), 2u);
   EXPECT_NEAR(thresholds[0], 0.125, 1e-4);
   EXPECT_NEAR(thresholds[1], 0.625, 1e-4);
 }
 
 TEST(Otsu, HasNoAnswerForFewerValuesThanClasses) {
-  EXPECT_TRUE(otsu_isovalues(std::vector<float>{5, 5, 5}, 2).empty());
-  EXPECT_TRUE(otsu_isovalues(std::vector<float>{0, 1, 1}, 3).empty());
-  EXPECT_TRUE(otsu_isovalues(std::vector<float>{0.5f}, 2).empty());
-  EXPECT_THROW(otsu_isovalues(std::vector<float>{0, 1}, 1), OptionError);
+  EXPECT_TRUE(SampleStatistics(std::vector<float>{5, 5, 5}).otsu_isovalues(2).empty());
+  EXPECT_TRUE(SampleStatistics(std::vector<float>{0, 1, 1}).otsu_isovalues(3).empty());
+  EXPECT_TRUE(SampleStatistics(std::vector<float>{0.5f}).otsu_isovalues(2).empty());
+  EXPECT_THROW(SampleStatistics(std::vector<float>{0, 1}).otsu_isovalues(1), OptionError);
 }
 
 TEST(Otsu, SurvivesHugeRanges) {
-  const std::vector<double> thresholds = otsu_isovalues(std::vector<float>{-3e38f, -3e38f, 3e38f, 3e38f}, 2);
+  const std::vector<double> thresholds = SampleStatistics(std::vector<float>{-3e38f, -3e38f, 3e38f, 3e38f}).otsu_isovalues(2);
   ASSERT_EQ(thresholds.size(), 1u);
   EXPECT_NEAR(thresholds[0], 0, 1e34);
 }

@@ -307,8 +307,10 @@ TEST(Phantom, BadOptionsAreRefusedWithTheMend) {
   PhantomOptions options;
   options.dims = {0, 4, 4};
   EXPECT_THROW(make_phantom("sphere", options), OptionError);
-  options.dims = {100000, 100000, 4};
+  options.dims = {1000000, 1000000, 4};
   EXPECT_THROW(make_phantom("sphere", options), OptionError);
+  options.dims = {100000, 100000, 4};  // can be streamed to a file, but not be held
+  EXPECT_THROW(make_phantom("sphere", options), InputError);
   options = {};
   options.spacing.y = -1;
   EXPECT_THROW(make_phantom("sphere", options), OptionError);

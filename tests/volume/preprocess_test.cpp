@@ -97,18 +97,18 @@ TEST(Crop, ClipsToTheImageAndRefusesWhatIsEmpty) {
 TEST(Crop, WorldBoxTakesTheVoxelsWhoseCentersItHolds) {
   // Centers at 10, 10.5, 11, ... along x; 20, 22, ... along y; -5, -4, ... along z.
   const Volume volume = plain_volume({10, 10, 10}, {0.5, 2, 1}, std::vector<float>(1000, 0), {10, 20, -5});
-  const IndexBox box = index_box(volume, {{10.5, 20.1, -100}, {11.99, 25.9, -3.5}});
+  const IndexBox box = index_box(volume.header(), {{10.5, 20.1, -100}, {11.99, 25.9, -3.5}});
   EXPECT_EQ(box, (IndexBox{{1, 1, 0}, {4, 3, 2}}));
-  EXPECT_THROW(crop(volume, index_box(volume, {{10.1, 20, -5}, {10.4, 30, 5}})), NothingToMesh);
-  EXPECT_THROW(crop(volume, index_box(volume, {{100, 20, -5}, {110, 30, 5}})), NothingToMesh);
-  EXPECT_THROW(crop(volume, index_box(volume, Box3{})), NothingToMesh);
+  EXPECT_THROW(crop(volume, index_box(volume.header(), {{10.1, 20, -5}, {10.4, 30, 5}})), NothingToMesh);
+  EXPECT_THROW(crop(volume, index_box(volume.header(), {{100, 20, -5}, {110, 30, 5}})), NothingToMesh);
+  EXPECT_THROW(crop(volume, index_box(volume.header(), Box3{})), NothingToMesh);
 }
 
 TEST(Crop, WorldBoxOnAFlippedObliqueImageHoldsEveryCenterInside) {
   const Volume volume = flip_axis(make_phantom("sphere", oblique({20, 24, 18})), 1);
   const Point3 middle = volume.header().index_to_world({9, 11, 8});
   const Box3 world{middle - Vector3{3, 2, 4}, middle + Vector3{2, 3, 1}};
-  const IndexBox box = index_box(volume, world);
+  const IndexBox box = index_box(volume.header(), world);
   std::array<int, 3> low{99, 99, 99}, high{-1, -1, -1};
   for_each_voxel(volume, [&](const std::array<int, 3>& index, float) {
     if (!world.contains(world_of(volume, index))) return;
@@ -127,13 +127,13 @@ TEST(Crop, WorldBoxOnAFlippedObliqueImageHoldsEveryCenterInside) {
 
 TEST(ParseCrop, ReadsVoxelsAndMillimetres) {
   const Volume volume = plain_volume({10, 20, 30}, {2, 1, 1}, std::vector<float>(6000, 0), {100, 0, 0});
-  EXPECT_EQ(parse_crop(volume, "1:4,2:20,0:30"), (IndexBox{{1, 2, 0}, {4, 20, 30}}));
-  EXPECT_EQ(parse_crop(volume, "3:,:7,:"), (IndexBox{{3, 0, 0}, {10, 7, 30}}));
-  EXPECT_EQ(parse_crop(volume, "-5:400,0:20,0:30"), (IndexBox{{0, 0, 0}, {10, 20, 30}}));
-  EXPECT_EQ(parse_crop(volume, "102:106,0.5:7.5,:mm"), (IndexBox{{1, 1, 0}, {4, 8, 30}}));
-  EXPECT_EQ(parse_crop(volume, ":,:,:mm"), (IndexBox{{0, 0, 0}, {10, 20, 30}}));
-  EXPECT_THROW(crop(volume, parse_crop(volume, "5:5,:,:")), NothingToMesh);
-  EXPECT_THROW(crop(volume, parse_crop(volume, "106:102,:,:mm")), NothingToMesh);
+  EXPECT_EQ(parse_crop(volume.header(), "1:4,2:20,0:30"), (IndexBox{{1, 2, 0}, {4, 20, 30}}));
+  EXPECT_EQ(parse_crop(volume.header(), "3:,:7,:"), (IndexBox{{3, 0, 0}, {10, 7, 30}}));
+  EXPECT_EQ(parse_crop(volume.header(), "-5:400,0:20,0:30"), (IndexBox{{0, 0, 0}, {10, 20, 30}}));
+  EXPECT_EQ(parse_crop(volume.header(), "102:106,0.5:7.5,:mm"), (IndexBox{{1, 1, 0}, {4, 8, 30}}));
+  EXPECT_EQ(parse_crop(volume.header(), ":,:,:mm"), (IndexBox{{0, 0, 0}, {10, 20, 30}}));
+  EXPECT_THROW(crop(volume, parse_crop(volume.header(), "5:5,:,:")), NothingToMesh);
+  EXPECT_THROW(crop(volume, parse_crop(volume.header(), "106:102,:,:mm")), NothingToMesh);
 }
 
 TEST(ParseCrop, RefusesWhatDoesNotParseAndSaysWhatToWrite) {
@@ -142,7 +142,7 @@ TEST(ParseCrop, RefusesWhatDoesNotParseAndSaysWhatToWrite) {
                            "1:2,3:4,5:6cm", "1:2:3,3:4,5:6", "nan:2,3:4,5:6mm", "inf:2,3:4,5:6mm",
                            "1:99999999999,3:4,5:6", "mm"}) {
     try {
-      parse_crop(volume, text);
+      parse_crop(volume.header(), text);
       ADD_FAILURE() << "accepted '" << text << "'";
     } catch (const OptionError& error) {
       EXPECT_NE(std::string(error.what()).find("write x0:x1,y0:y1,z0:z1"), std::string::npos);
@@ -312,7 +312,7 @@ TEST(Preprocess, GivesTheSameBytesOnOneThread) {
   const Volume volume = make_phantom("noisy-sphere");
   const auto run = [&] {
     const Volume result = resample(smooth(volume, {1.2}), {1.7});
-    std::vector<double> answer = otsu_isovalues(result.samples(), 3);
+    std::vector<double> answer = SampleStatistics(result.samples()).otsu_isovalues(3);
     for (float sample : result.samples()) answer.push_back(sample);
     return answer;
   };

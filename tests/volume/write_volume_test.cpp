@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "delvox/volume/phantom.h"
 #include "volume/volume_files.h"
 
 namespace delvox {
@@ -191,6 +192,22 @@ TEST(WriteVolume, NoticesAFullDisk) {
     ::setrlimit(RLIMIT_FSIZE, &before);
   }
   EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(WriteVolume, StreamsAPhantomOf16BitsToTiff) {
+  const TempFolder folder;
+  PhantomOptions options;
+  options.dims = {40, 30, 19};
+  options.uint16 = true;
+  const VolumeSourcePtr phantom = phantom_source("sphere", options);
+  write_volume(*phantom, folder / "stack.tif");
+  const VolumeSourcePtr stack = open_volume(folder / "stack.tif");
+  EXPECT_EQ(stack->header().sample_type, "uint16");
+  EXPECT_EQ(stack->header().index_to_world.rows, phantom->header().index_to_world.rows);
+  const std::vector<float> samples = load(*stack).samples();
+  EXPECT_EQ(samples, make_phantom("sphere", options).samples());
+  for (float sample : samples) ASSERT_TRUE(sample == std::round(sample) && sample >= 0 && sample <= 65535);
+  EXPECT_EQ(phantom_truth("sphere", options).isovalue, 32767.5);
 }
 
 }  // namespace

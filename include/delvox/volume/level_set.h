@@ -20,7 +20,13 @@ struct LevelSet {
 
   explicit LevelSet(const Isosurface& surface);
   bool inside(float signed_sample) const { return signed_sample > level; }
+  /// The sample, sign not applied, that is closest to the level on one side.
+  float nearest(bool on_inside) const;
 };
+
+/// One row of the padded grid, n + 2 signed samples, from a row of n samples of the image: the nearest one, if the whole
+/// row is in the padding.
+void pad_row(const LevelSet& level_set, const float* samples, int n, bool in_padding, float* out);
 
 /// Copies signed samples of the padded grid into out, i fastest. Indices run from -1 to dims (inclusive): the image
 /// is padded by one layer that is outside by construction (2 level - g of the nearest voxel if that is inside, else

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "delvox/volume/volume.h"
+#include "delvox/volume/volume_source.h"
 
 namespace delvox {
 
@@ -21,6 +21,9 @@ struct PhantomOptions {
   Point3 center{0, 0, 0};  ///< world position of the middle of the image
   std::uint64_t seed = 1;  ///< of the noise and of "random"
   double noise = 0;        ///< standard deviation of what is added to every sample (near-normal, at most 6 of them)
+  /// Values as a scanner has them: 256 steps per unit of the kind's own, whole numbers from 0 to 65535, the isovalue at
+  /// 32767.5. Truth stays what it is but for that scale.
+  bool uint16 = false;
 };
 
 /// A kind of phantom, as listed by `delvox phantom`.
@@ -57,6 +60,9 @@ PhantomOptions phantom_defaults(std::string_view kind);
 /// The known answers for a kind sampled with these options. Throws OptionError: no such kind; dims below 1 or too many
 /// voxels; spacing or noise not positive and finite; directions not orthonormal.
 PhantomTruth phantom_truth(std::string_view kind, const PhantomOptions& options);
+
+/// A phantom whose samples are made as they are read, so it may be larger than memory. Throws as phantom_truth.
+VolumeSourcePtr phantom_source(std::string_view kind, const PhantomOptions& options);
 
 /// Samples a phantom, float32, frame RAS. The same kind and options give the same samples. Throws as phantom_truth.
 Volume make_phantom(std::string_view kind, const PhantomOptions& options);

@@ -44,11 +44,13 @@ class Volume {
   /// All samples, i fastest.
   std::vector<float> samples() const;
 
+  /// The range of the samples, those that load() has collapsed included.
   float min() const;
   float max() const;
 
   /// The grid behind it, for the rooms that may see OpenVDB (src/volume/volume_impl.h).
   struct Impl;
+  explicit Volume(std::shared_ptr<const Impl> impl);
   const Impl& impl() const { return *impl_; }
 
  private:

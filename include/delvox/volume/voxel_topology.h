@@ -6,6 +6,7 @@
 
 #include "delvox/core/geometry.h"
 #include "delvox/volume/level_set.h"
+#include "delvox/volume/volume_source.h"
 
 namespace delvox {
 
@@ -41,8 +42,10 @@ struct VoxelTopology {
   friend bool operator==(const VoxelTopology&, const VoxelTopology&) = default;
 };
 
-/// About 20-40 ns per voxel, one thread; memory grows with the runs of equal sign along i.
+/// Memory grows with the runs of equal sign along i.
 VoxelTopology count_topology(const Volume& volume, const Isosurface& surface);
+/// The same for several surfaces in one pass over a source.
+std::vector<VoxelTopology> count_topologies(const VolumeSource& source, const std::vector<Isosurface>& surfaces);
 
 /// A connected part of the inside, or of the outside.
 struct VoxelRegion {

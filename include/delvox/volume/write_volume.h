@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "delvox/volume/volume.h"
+#include "delvox/volume/volume_source.h"
 
 namespace delvox {
 
@@ -16,5 +16,8 @@ namespace delvox {
 ///
 /// Throws IoError; OptionError for an unknown extension or a geometry that the format cannot state.
 void write_volume(const Volume& volume, const std::filesystem::path& path);
+/// The same from a source: TIFF slice by slice, other formats by way of memory. Of a phantom of type uint16 a TIFF
+/// keeps the type.
+void write_volume(const VolumeSource& source, const std::filesystem::path& path);
 
 }  // namespace delvox
