@@ -56,6 +56,14 @@ TEST(VoxelLandmarks, LinksJoinTheInsideIntoItsComponents) {
   }
 }
 
+TEST(VoxelLandmarks, AreNoneWhenToldToStop) {
+  const Volume volume = make_phantom("noisy-sphere", noisy_image());
+  const BrickField field(volume, LevelSet(Isosurface{0, false}));
+  int bricks = 0;
+  EXPECT_TRUE(voxel_landmarks(field, everywhere, [&] { return ++bricks < 3; }).points.empty());
+  EXPECT_EQ(bricks, 3);
+}
+
 TEST(VoxelLandmarks, AreAskedOfTheOracleOnlyWhereTheMeshIsFinerThanAVoxel) {
   const auto oracle = make_isosurface_oracle(make_phantom("noisy-sphere", noisy_image()), {0, false});
   EXPECT_TRUE(oracle->landmarks(1.01).points.empty());
