@@ -17,7 +17,9 @@ PhantomOptions noisy_image() {
   return image;
 }
 
-bool everywhere(const Point3&) { return true; }
+bool everywhere(const Point3&) {
+  return true;
+}
 
 TEST(VoxelLandmarks, LinksStayOnOneSideOfTheSurface) {
   const Volume volume = make_phantom("noisy-sphere", noisy_image());
