@@ -26,9 +26,10 @@ void RestrictedDelaunay::set_kind(VertexId vertex, VertexKind kind) {
   kinds_[vertex] = kind;
 }
 
-void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds) {
+void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on) {
   created_.assign(1, delaunay_.cell_of(0));
   for (std::uint32_t i : spatial_order(seeds)) {
+    go_on();
     delaunay_.evaluate(seeds[i], delaunay_.nearest_hint(seeds[i], created_), star_);
     if (star_.duplicate) continue;
     set_kind(delaunay_.commit(star_, created_), VertexKind::kSurface);
@@ -41,7 +42,7 @@ void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds) {
 }
 
 std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Point3>& points,
-                                                          const std::function<bool()>& go_on) {
+                                                          const GoOn& go_on) {
   std::vector<VertexId> vertices(points.size(), kNone);
   const std::uint32_t first_stamp = delaunay_.next_stamp();
   created_.assign(1, delaunay_.cell_of(0));

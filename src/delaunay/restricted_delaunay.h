@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "delaunay/delaunay3.h"
@@ -28,13 +27,14 @@ class RestrictedDelaunay {
 
   explicit RestrictedDelaunay(const Oracle& oracle);
 
-  /// Inserts points of the surface in spatial order; all cells count as created.
-  void insert_seeds(const std::vector<Point3>& seeds);
+  /// Inserts points of the surface in spatial order; all cells count as created. go_on() is asked before each, so that it
+  /// may throw; what it says is not heeded: with fewer seeds there would be components without any.
+  void insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on = always_go_on);
 
   /// Inserts points inside the domain that lie in no computed surface ball and on no vertex, in spatial order: many at
   /// once, labels being asked for at the end only. Ends early when go_on() says so. Returns their vertices, kNone for
   /// points not inserted; created() holds all cells made.
-  std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const std::function<bool()>& go_on);
+  std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const GoOn& go_on);
 
   /// Sets a part of the domain aside: its cells are placeholders for a mesh of it that is known otherwise, until
   /// take_back(). `walls`: each counter-clockwise seen from outside the part. False, and nothing is set aside, if one of

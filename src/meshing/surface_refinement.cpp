@@ -16,14 +16,14 @@ Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, con
 void Refinement::insert_seeds() {
   // Cancelling ends it; a limit does not: fewer seeds would leave components without any.
   const auto go_on = [this] {
-    budget_.go_on(0, 0);
+    budget_.go_on(vertex_count(), 0);
     return true;
   };
   const Seeds seeds = oracle_.seeds(surface_.size, go_on);
   if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
   report_.components = seeds.components;
   watch_ = LandmarkWatch(oracle_.landmarks(surface_.size, go_on));
-  delaunay_.insert_seeds(seeds.points);
+  delaunay_.insert_seeds(seeds.points, go_on);
   enqueue_created();
 }
 
