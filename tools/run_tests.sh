@@ -34,7 +34,11 @@ run_ctest() {
 if $everything; then
   build asan
   run_ctest asan -L fuzz
-  run_ctest asan -LE 'scans|heavy|solvers|fuzz|tsan' -R '[Hh]ostile'  # what must not crash, with sanitizers watching
+  # What must not crash, with sanitizers watching: hostile files, disks that are full, and all of src/core and src/delaunay.
+  run_ctest asan -LE 'scans|heavy|solvers|fuzz|tsan' \
+    -R '[Hh]ostile|FullDisk|^CliErrors\.(AFileSizeLimit|AFullStandardOutput)'
+  build/asan/tests/core/core_tests
+  build/asan/tests/delaunay/delaunay_tests
   build dev -DDELVOX_BUILD_BENCHMARKS=ON
   run_ctest dev -LE 'fuzz|tsan'
 else
