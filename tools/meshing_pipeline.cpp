@@ -71,6 +71,7 @@ class MeshingRun {
   std::optional<Volume> volume_;
   FrameChange frame_;
   ChosenIsosurface chosen_;
+  std::optional<Ties> ties_;
   SizeField size_ = 1.0;
   std::string size_sentence_;
   std::optional<SizeField> cell_size_;
@@ -91,7 +92,8 @@ void MeshingRun::read() {
     source = watch_.timed("reading", [&] { return kept_if_small(source); });
   }
   chosen_ = watch_.timed("isovalue", [&] { return choose_isosurface(*source, options_.isosurface, frame_); });
-  volume_ = watch_.timed("reading", [&] { return load(*source, chosen_.surface); });
+  ties_.emplace(chosen_.surface);
+  volume_ = watch_.timed("reading", [&] { return load(*source, chosen_.surface, &*ties_); });
   const VolumeHeader& h = volume_->header();
   tell_warnings(h, options_.volume, console_);
   check_isosurface(chosen_, *volume_);
@@ -99,6 +101,7 @@ void MeshingRun::read() {
                   std::to_string(h.dims[1]) + " x " + std::to_string(h.dims[2]) + " voxels of " + point(h.spacing()) +
                   " mm, " + h.orientation());
   console_.note(chosen_.sentence);
+  if (const std::string advice = advice_on(*ties_); !advice.empty()) console_.note("note: " + advice);
 }
 
 // Chooses the sizes, and says so.
@@ -211,6 +214,9 @@ void MeshingRun::check() {
   cheap.level = CheckLevel::kCheap;
   check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, cheap); });
   verdict_ = verdict(run_report_, check_report_);
+  if (!verdict_.empty() && run_report_.stop == StopReason::kFinished) {
+    verdict_ = verdict(run_report_, check_report_, advice_on(*ties_));
+  }
   if (!verdict_.empty()) std::visit([](auto& mesh) { mesh.info.complete = false; }, mesh_);
 }
 

@@ -37,7 +37,7 @@ std::string describe(const Unmet& unmet) {
   return text;
 }
 
-std::string verdict(const RunReport& run, const CheckReport& check) {
+std::string verdict(const RunReport& run, const CheckReport& check, const std::string& advice) {
   std::vector<std::string> faults;
   if (run.stop != StopReason::kFinished) faults.push_back(to_string(run.stop));
   for (const Unmet& unmet : run.unmet) {
@@ -49,7 +49,7 @@ std::string verdict(const RunReport& run, const CheckReport& check) {
   if (faults.empty()) return check.all_hold() && run.succeeded() ? "" : "the run is not complete; see --report";
   std::string text = faults[0];
   if (faults.size() > 1) text += ", and " + plural(faults.size() - 1, "more fault");
-  return text + "; " + mend(run);
+  return text + "; " + (advice.empty() ? mend(run) : advice);
 }
 
 std::string verdict(const CheckReport& check) {
@@ -65,6 +65,13 @@ std::string verdict(const CheckReport& check) {
     }
   }
   return more > 0 ? text + ", and " + plural(more, "more fault") : text;
+}
+
+std::string advice_on(const Ties& ties) {
+  if (ties.count() == 0) return {};
+  return plural(ties.count(), "sample") + (ties.count() == 1 ? " equals" : " equal") +
+         " the isovalue, which leaves parts of the surface as thin as a rounding error; --iso " +
+         number(ties.untied(), 9) + " labels every voxel alike without that";
 }
 
 }  // namespace delvox::tools

@@ -14,7 +14,9 @@ constexpr auto& kStride = BrickField::kBlockStride;
 constexpr Word kFirst[2] = {0x0101010101010101ull, 0xffull}, kLast[2] = {kFirst[0] << 7, kFirst[1] << 56};
 
 /// Place of a bit of a layer among the samples of a block.
-int place_of(int layer, int bit) { return layer * kBlock * kBlock + bit + bit / kBrick; }
+int place_of(int layer, int bit) {
+  return layer * kBlock * kBlock + bit + bit / kBrick;
+}
 
 /// A union-find whose roots are the smallest of their sets.
 template <class Number>
@@ -38,8 +40,7 @@ void unite(Number* parent, Number a, Number b) {
 /// are handed on to that brick.
 class ComponentFinder {
  public:
-  explicit ComponentFinder(const BrickField& field)
-      : field_(field), level_(field.level()) {
+  explicit ComponentFinder(const BrickField& field) : field_(field), level_(field.level()) {
     const auto& n = field.brick_counts();
     handed_[0].resize(1);
     handed_[1].resize(static_cast<std::size_t>(n[0]));
@@ -108,8 +109,8 @@ class ComponentFinder {
     const Word c = edges.inside(1 << u | 1 << v, layer), d = edges.inside(1 << v, layer);
     const std::array<Word, 4> crossed{a ^ b, b ^ c, c ^ d, d ^ a};
     const Word all_four = crossed[0] & crossed[1] & crossed[2];
-    const std::array<Local*, 4> edge{edge_at_[u].data(), edge_at_[v].data() + kStride[u], edge_at_[u].data() + kStride[v],
-                                     edge_at_[v].data()};
+    const std::array<Local*, 4> edge{edge_at_[u].data(), edge_at_[v].data() + kStride[u],
+                                     edge_at_[u].data() + kStride[v], edge_at_[v].data()};
     for (int first = 0; first < 3; ++first) {
       for (int second = first + 1; second < 4; ++second) {
         BrickEdges::for_each_bit(crossed[first] & crossed[second] & ~all_four, [&](int bit) {
@@ -160,9 +161,8 @@ class ComponentFinder {
       for_each_on_side<false>(edges, side, [&](int axis, int place, int number) {
         unite(pieces_.data(), piece_of_[edge_at_[axis][place]], plane[number]);
       });
-      for_each_on_side<true>(edges, side, [&](int axis, int place, int number) {
-        plane[number] = piece_of_[edge_at_[axis][place]];
-      });
+      for_each_on_side<true>(
+          edges, side, [&](int axis, int place, int number) { plane[number] = piece_of_[edge_at_[axis][place]]; });
     }
   }
 

@@ -21,8 +21,9 @@ constexpr std::size_t kFewCrossings = 24;
 constexpr int kMostCopies = 64;
 
 std::uint64_t hash_edge(const CrossedEdge& edge, std::uint64_t salt) {
-  const std::uint64_t place = static_cast<std::uint64_t>(edge.sample[0]) | static_cast<std::uint64_t>(edge.sample[1]) << 21 |
-                              static_cast<std::uint64_t>(edge.sample[2]) << 42 | static_cast<std::uint64_t>(edge.axis) << 62;
+  const std::uint64_t place =
+      static_cast<std::uint64_t>(edge.sample[0]) | static_cast<std::uint64_t>(edge.sample[1]) << 21 |
+      static_cast<std::uint64_t>(edge.sample[2]) << 42 | static_cast<std::uint64_t>(edge.axis) << 62;
   return mix_hash(mix_hash(place) ^ salt);
 }
 

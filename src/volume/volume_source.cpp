@@ -112,13 +112,16 @@ std::vector<std::string> for_each_slab(const VolumeSource& source,
   return reader->warnings();
 }
 
-Volume load(const VolumeSource& source, const std::optional<Isosurface>& surface) {
+Volume load(const VolumeSource& source, const std::optional<Isosurface>& surface, Ties* ties) {
   const std::array<int, 3>& n = source.dims();
   if (!surface) check_fits_whole("volume", {n[0], n[1], n[2]});
   const auto level_set = surface ? std::optional<LevelSet>(*surface) : std::nullopt;
   GridBuilder builder(source.header(), level_set);
   const std::vector<std::string> warnings =
-      for_each_slab(source, [&](const float* samples, int, int slices) { builder.add(samples, slices); });
+      for_each_slab(source, [&](const float* samples, int, int slices) {
+        builder.add(samples, slices);
+        if (ties != nullptr) ties->add(samples, static_cast<std::size_t>(n[0]) * n[1] * slices);
+      });
   const std::shared_ptr<Volume::Impl> impl = builder.finish();
   add_warnings(warnings, impl->header);
   return Volume(impl);

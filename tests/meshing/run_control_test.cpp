@@ -112,6 +112,23 @@ TEST(RunControl, CancellingUnderWayThrowsSoonAfter) {
   EXPECT_LT(seconds_since(asked), 5);
 }
 
+TEST(RunControl, CancellingWhileSeedsArePlacedThrowsSoonAfter) {
+  constexpr std::size_t kAskedBefore = 500;
+  std::atomic<bool> cancel{false};
+  std::size_t asked = 0;
+  DelSurfOptions options;
+  options.control.cancel = &cancel;
+  const auto size = [&](const Point3&) {
+    cancel = ++asked >= kAskedBefore;
+    return 0.3;
+  };
+  options.surface.size = SizeField(size, 0.3, 0.3);
+  RunReport report;
+  EXPECT_THROW(delsurf(*sphere(), options, report), Cancelled);
+  EXPECT_GE(asked, kAskedBefore);
+  EXPECT_LT(asked, kAskedBefore + 300);  // the sphere has thousands of crossings to ask at
+}
+
 TEST(RunControl, ProgressIsASignOfLifeAFewTimesASecond) {
   std::set<std::string> stages;
   std::size_t calls = 0, last = 0;

@@ -59,14 +59,16 @@ TEST(PoissonThinning, EqualsBruteForceForSpacingsOverManyOctaves) {
 
 TEST(PoissonThinning, KeepsOneOfSeveralEqualPointsAndPointsExactlyAtTheSpacing) {
   const std::vector<Candidate> candidates{{{0, 0, 0}, 1},   {{0, 0, 0}, 1},  {{1, 0, 0}, 1},
-                                            {{0.5, 0, 0}, 1}, {{-1, 0, 0}, 1}, {{-1.5, 0, 0}, 0.5}};
+                                          {{0.5, 0, 0}, 1}, {{-1, 0, 0}, 1}, {{-1.5, 0, 0}, 0.5}};
   EXPECT_EQ(thin(candidates, 1), (std::vector<std::uint32_t>{0, 2, 4, 5}));
 }
 
 TEST(PoissonThinning, EqualsBruteForceForAStreamThatSweepsSpace) {
   test::Random random(4);
   std::vector<Candidate> candidates;
-  for (int n = 0; n < 4000; ++n) candidates.push_back({random.in({{-3, 0.001 * n, 0}, {3, 0.001 * n + 0.3, 0.1}}), 0.25});
+  for (int n = 0; n < 4000; ++n) {
+    candidates.push_back({random.in({{-3, 0.001 * n, 0}, {3, 0.001 * n + 0.3, 0.1}}), 0.25});
+  }
   EXPECT_EQ(thin(candidates, 0.25), brute_force(candidates));
 }
 

@@ -17,7 +17,9 @@ PhantomOptions noisy_image() {
   return image;
 }
 
-bool everywhere(const Point3&) { return true; }
+bool everywhere(const Point3&) {
+  return true;
+}
 
 TEST(VoxelLandmarks, LinksStayOnOneSideOfTheSurface) {
   const Volume volume = make_phantom("noisy-sphere", noisy_image());
@@ -54,6 +56,14 @@ TEST(VoxelLandmarks, LinksJoinTheInsideIntoItsComponents) {
     }
     EXPECT_EQ(inside.size(), count_topology(volume, {0, false}).inside_components) << seed;
   }
+}
+
+TEST(VoxelLandmarks, AreNoneWhenToldToStop) {
+  const Volume volume = make_phantom("noisy-sphere", noisy_image());
+  const BrickField field(volume, LevelSet(Isosurface{0, false}));
+  int bricks = 0;
+  EXPECT_TRUE(voxel_landmarks(field, everywhere, [&] { return ++bricks < 3; }).points.empty());
+  EXPECT_EQ(bricks, 3);
 }
 
 TEST(VoxelLandmarks, AreAskedOfTheOracleOnlyWhereTheMeshIsFinerThanAVoxel) {

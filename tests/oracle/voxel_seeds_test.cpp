@@ -75,6 +75,19 @@ TEST(VoxelSeeds, LieOffTheGridLinesSoThatTheyAreNotCospherical) {
   EXPECT_LT(on_lines, static_cast<int>(seeds.points.size()) / 20);
 }
 
+TEST(VoxelSeeds, AreThoseThereAreWhenToldToStop) {
+  const Volume volume = make_phantom("sphere", test::cubic_image(24));
+  const BrickField field(volume, LevelSet(Isosurface{0, false}));
+  const Seeds all = voxel_seeds(field, Affine3{}, 0.5, always_go_on);
+  std::size_t asked = 0, in_all = 0;
+  voxel_seeds(field, Affine3{}, 0.5, [&] { return ++in_all != 0; });
+  const Seeds some = voxel_seeds(field, Affine3{}, 0.5, [&] { return ++asked <= in_all / 2; });
+  ASSERT_FALSE(some.points.empty());
+  ASSERT_LT(some.points.size(), all.points.size());
+  for (std::size_t i = 0; i < some.points.size(); ++i) EXPECT_EQ(some.points[i], all.points[i]) << i;
+  EXPECT_EQ(asked, in_all / 2 + 1);  // and not asked again
+}
+
 TEST(VoxelSeeds, EveryComponentOfNoiseHasSeedsNearItsCrossings) {
   PhantomOptions image = test::cubic_image(20);
   image.noise = 1;

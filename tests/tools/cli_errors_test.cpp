@@ -127,8 +127,8 @@ TEST_F(CliErrors, VolumesWithoutSenseExitWith3) {
   expect_header_refused("zero.nii", [](auto& f) { f.dim[2] = 0; }, "dim[2]");
   expect_header_refused("negative.nii", [](auto& f) { f.dim[1] = -5; }, "dim[1]");
   expect_header_refused("huge.nii", [](auto& f) { f.version = 2, f.dim[1] = 1'000'000'000; }, "1000000000");
-  expect_header_refused("overflow.nii", [](auto& f) { f.version = 2, f.dim = {5, 2, 3, 4, 1LL << 62, 1LL << 62, 1, 1}; },
-                        "overflow");
+  expect_header_refused(
+      "overflow.nii", [](auto& f) { f.version = 2, f.dim = {5, 2, 3, 4, 1LL << 62, 1LL << 62, 1, 1}; }, "overflow");
   expect_header_refused("spacing.nii", [](auto& f) { f.pixdim[2] = std::numeric_limits<double>::quiet_NaN(); },
                         "pixdim[2]");
   expect_header_refused("affine.nii", [](auto& f) { f.srow[5] = 0; }, "singular");

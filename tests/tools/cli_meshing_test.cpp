@@ -47,6 +47,25 @@ TEST_F(CliMeshing, TheShortestCommandWorksAndSaysWhatItChose) {
   EXPECT_NE(outcome.out.find("every check holds"), std::string::npos) << outcome.out;
 }
 
+TEST_F(CliMeshing, AnIsovalueThatSamplesEqualIsToldWithOneThatNoneDoesAndThatOneHolds) {
+  for (const char* seed : {"1", "2", "3"}) {
+    const std::string volume = phantom("random", {"--dims", "10,10,10", "--seed", seed});
+    // A coarse mesh, and a limit: what is as thin as a rounding error can take for ever to resolve.
+    const Outcome tied = run_delvox({"tet", volume, "--iso", "2", "--size", "1.5", "--min-component", "0",
+                                     "--max-vertices", "20000", "-o", folder_ / "random.vtu"});
+    EXPECT_TRUE(tied.code == 0 || tied.code == 5) << tied.err;
+    EXPECT_NE(tied.err.find("equal the isovalue"), std::string::npos) << tied.err;
+    EXPECT_NE(tied.err.find("--iso 1.618"), std::string::npos) << tied.err;
+    const Outcome untied = run_delvox({"tet", volume, "--iso", "1.618", "--size", "0.5", "--min-component", "0", "-o",
+                                       folder_ / "random.vtu"});
+    EXPECT_EQ(untied.code, 0) << untied.err;
+    EXPECT_EQ(untied.err.find("equal the isovalue"), std::string::npos) << untied.err;
+    const Outcome check = run_delvox({"check", folder_ / "random.vtu", "--volume", volume, "--min-component", "0",
+                                      "--same-topology", "--quiet"});
+    EXPECT_EQ(check.code, 0) << check.err;
+  }
+}
+
 TEST_F(CliMeshing, QuietSuccessSaysNothing) {
   const Outcome outcome = run_delvox({"tet", phantom("sphere"), "-o", folder_ / "mesh.vtu", "--quiet"});
   EXPECT_EQ(outcome.code, 0);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "delvox/volume/level_set.h"
+#include "delvox/volume/ties.h"
 #include "delvox/volume/volume.h"
 
 namespace delvox {
@@ -63,7 +64,7 @@ std::vector<std::string> for_each_slab(const VolumeSource& source,
 
 /// Reads a source into a volume. With a surface, memory follows the surface, not the volume: an 8x8x8 block of voxels
 /// that no cell near the surface touches becomes one value on the same side of it, and all that is computed from this
-/// one isosurface stays the same to the bit (regions, oracle). Throws InputError.
-Volume load(const VolumeSource& source, const std::optional<Isosurface>& surface = {});
+/// one isosurface stays the same to the bit (regions, oracle). `ties`, if given, is shown all samples. Throws InputError.
+Volume load(const VolumeSource& source, const std::optional<Isosurface>& surface = {}, Ties* ties = nullptr);
 
 }  // namespace delvox
