@@ -36,7 +36,9 @@ if $everything; then
   run_ctest asan -L fuzz
   # What must not crash or leave half-written files, and the kernel with its memory of its own, with sanitizers watching.
   run_ctest asan -LE 'scans|heavy|solvers|fuzz|tsan' \
-    -R '[Hh]ostile|OutputFile|FullDisk|FileSizeLimit|FullStandardOutput|Delaunay|PageArray|RandomComplex|DelTetSurf'
+    -R '[Hh]ostile|FullDisk|FileSizeLimit|FullStandardOutput|RandomComplex|DelTetSurf'
+  build/asan/tests/core/core_tests
+  build/asan/tests/delaunay/delaunay_tests
   build dev -DDELVOX_BUILD_BENCHMARKS=ON
   run_ctest dev -LE 'fuzz|tsan'
 else

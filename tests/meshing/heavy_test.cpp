@@ -42,40 +42,57 @@ TEST(Heavy, AGyroidAtHalfAVoxelHasTheTopologyOfItsVoxels) {
   expect_everything({"gyroid", test::cubic_image(40), 0.5});
 }
 
-/// Noise at half a voxel with no smallest ball: the mesh's topology and that of the voxels.
-void compare_noise(std::uint64_t seed, test::SurfaceTopology& mesh, VoxelTopology& voxels) {
-  PhantomOptions image = test::with_noise(test::cubic_image(20), 1);
-  image.seed = seed;
-  const Volume volume = make_phantom("noisy-sphere", image);
-  const auto oracle = make_isosurface_oracle(volume, {0, false});
+/// The mesh of a case has the components and the Euler number of its voxels, with no smallest ball.
+void expect_topology_of_the_voxels(const PhantomCase& c) {
+  const Volume volume = c.volume();
+  const auto oracle = make_isosurface_oracle(volume, c.isosurface());
   DelSurfOptions options;
-  options.surface.size = 0.5;
+  options.surface.size = c.size;
   RunReport report;
-  const SurfaceMesh surface = delsurf(*oracle, options, report);
-  EXPECT_TRUE(report.unmet.empty());
-  test::expect_closed_manifold(surface);
-  mesh = test::topology_of(surface);
-  voxels = count_topology(volume, {0, false});
+  const SurfaceMesh mesh = delsurf(*oracle, options, report);
+  test::expect_finished(report);
+  test::expect_closed_manifold(mesh);
+  const test::SurfaceTopology found = test::topology_of(mesh);
+  const VoxelTopology voxels = count_topology(volume, c.isosurface());
+  EXPECT_EQ(found.components, voxels.surface_components);
+  EXPECT_EQ(found.euler, voxels.euler);
 }
 
-TEST(Heavy, NoiseAtHalfAVoxelHasTheComponentsOfItsVoxels) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    test::SurfaceTopology mesh;
-    VoxelTopology voxels;
-    compare_noise(seed, mesh, voxels);
-    EXPECT_EQ(mesh.components, voxels.surface_components) << seed;
+class HeavyTopology : public testing::TestWithParam<PhantomCase> {};
+
+/// A case for each kind of phantom, at half a voxel. "random" where nothing ties: at 1.5, saddles of faces would.
+std::vector<PhantomCase> every_kind() {
+  std::vector<PhantomCase> cases;
+  for (const PhantomKind& kind : phantom_kinds()) {
+    PhantomCase c{kind.name, kind.defaults, 0};
+    for (int& n : c.image.dims) n = std::min(n, 32);
+    c.size = 0.5 * c.voxel();
+    if (kind.name == "random") c.isovalue = 1.3;
+    cases.push_back(c);
   }
+  return cases;
 }
 
-// Fails for seeds 3, 4 and 6: one or two handles too few. Landmarks are sampled every quarter of a link, and links are
-// tested for joining pieces only: a thin neck between pieces that are joined elsewhere goes unnoticed, and untold.
-TEST(Heavy, DISABLED_NoiseAtHalfAVoxelHasTheHandlesOfItsVoxels) {
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    test::SurfaceTopology mesh;
-    VoxelTopology voxels;
-    compare_noise(seed, mesh, voxels);
-    EXPECT_EQ(mesh.euler, voxels.euler) << seed;
-  }
+INSTANTIATE_TEST_SUITE_P(EveryKind, HeavyTopology, testing::ValuesIn(every_kind()),
+                         [](const auto& info) { return test::test_name(info.param); });
+
+TEST_P(HeavyTopology, AtHalfAVoxelIsThatOfTheVoxels) { expect_topology_of_the_voxels(GetParam()); }
+
+void expect_topology_of_noise(int n, std::uint64_t seed) {
+  SCOPED_TRACE(seed);
+  PhantomOptions image = test::with_noise(test::cubic_image(n), 1);
+  image.seed = seed;
+  expect_topology_of_the_voxels({"noisy-sphere", image, 0.5});
+}
+
+TEST(Heavy, NoiseAtHalfAVoxelHasTheTopologyOfItsVoxels) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) expect_topology_of_noise(20, seed);
+}
+
+// One handle too many or too few among hundreds, for seed 2: landmarks are sampled every quarter of a link, and links
+// are tested for joining pieces only, so that a thin neck between pieces joined elsewhere can go unnoticed.
+TEST(Heavy, DISABLED_LargerNoiseAtHalfAVoxelHasTheTopologyOfItsVoxels) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) expect_topology_of_noise(32, seed);
 }
 
 TEST(Heavy, RandomIntegersAtHalfAVoxelHaveTheTopologyOfTheirVoxels) {

@@ -7,43 +7,75 @@ namespace {
 
 class LargeSampleBars : public testing::TestWithParam<Scan> {};
 class ScanBars : public testing::TestWithParam<Scan> {};
-class ScanTopology : public testing::TestWithParam<Scan> {};
 
 TEST_P(LargeSampleBars, EveryPromiseHoldsAndASecondRunGivesTheSameBytes) {
   TemporaryFolder folder;
   const std::string volume = unpack_sample(GetParam().file, folder);
   if (volume.empty()) GTEST_SKIP() << "skipped: libcgal-demo is not installed";
-  for (double size : GetParam().sizes) expect_promises_held(volume, GetParam().options, size, folder);
+  for (const Aim& aim : GetParam().aims) expect_promises_held(volume, GetParam().options, aim, folder);
 }
 
 TEST_P(ScanBars, EveryPromiseHoldsAndASecondRunGivesTheSameBytes) {
   TemporaryFolder folder;
   const std::string volume = find_scan(GetParam().file);
   if (volume.empty()) GTEST_SKIP() << "skipped: no scans";
-  for (double size : GetParam().sizes) expect_promises_held(volume, GetParam().options, size, folder);
+  for (const Aim& aim : GetParam().aims) expect_promises_held(volume, GetParam().options, aim, folder);
 }
 
-TEST_P(ScanTopology, CropsAtHalfAVoxelHaveTheTopologyOfTheVoxels) {
+TEST_P(LargeSampleBars, CropsAtHalfAVoxelHaveTheTopologyOfTheVoxels) {
+  TemporaryFolder folder;
+  const std::string volume = unpack_sample(GetParam().file, folder);
+  if (volume.empty()) GTEST_SKIP() << "skipped: libcgal-demo is not installed";
+  expect_topology_of_the_voxels(GetParam(), volume, folder);
+}
+
+TEST_P(ScanBars, CropsAtHalfAVoxelHaveTheTopologyOfTheVoxels) {
   TemporaryFolder folder;
   const std::string volume = find_scan(GetParam().file);
   if (volume.empty()) GTEST_SKIP() << "skipped: no scans";
   expect_topology_of_the_voxels(GetParam(), volume, folder);
 }
 
-const Scan kSkull{"skull", "skull_2.9.inr", {"--iso", "2.9"}, {2.765, 1.81}};
-const Scan kLiver{"liver", "liver.inr.gz", {"--iso", "64", "--smooth", "0.8"}, {3.09, 2.06}};
-const std::vector<Scan> kScans = {
-    {"spm152", "spm152.nii.gz", {"--iso", "40"}, {5.74, 3.03, 1.97},
-     {"80:112,100:132,80:112", "100:132,60:92,100:132", "60:108,120:168,100:148"}, 0.3687},
-    {"CT_pitch_bone", "CT_pitch.nii.gz", {"--iso", "175.5"}, {3.23, 1.77, 1.07}, {"60:92,200:232,20:52"}, 0.406},
-    {"CT_pitch_skin", "CT_pitch.nii.gz", {"--iso", "35.5"}, {4.71, 2.62, 1.72}, {"20:52,100:132,10:42"}, 0.406},
-    {"CT_AVM", "CT_AVM.nii.gz", {"--iso", "180"}, {1.756, 0.971, 0.62}, {"110:158,110:158,60:108"}, 0.36},
-    {"Iguana", "Iguana.nii.gz", {"--iso", "120"}, {0.36, 0.203, 0.134}, {"80:112,100:132,80:112"}, 0.0509},
-};
+// One or two handles too many in either: links between landmarks are tested for joining pieces only, so that a thin
+// neck between pieces joined elsewhere can go unnoticed, though `check --same-topology` sees it.
+TEST(ScanTopology, DISABLED_EveryThinNeckOfACropIsThatOfTheVoxels) {
+  const Scan crops[] = {
+      {"spm152", "spm152.nii.gz", {"--iso", "40"}, {}, {"60:124,100:164,80:144"}, 0.3687},
+      {"Iguana", "Iguana.nii.gz", {"--iso", "119.3"}, {}, {"70:134,90:154,70:134"}, 0.0509}};
+  for (const Scan& scan : crops) {
+    TemporaryFolder folder;
+    const std::string volume = find_scan(scan.file);
+    if (volume.empty()) GTEST_SKIP() << "skipped: no scans";
+    expect_topology_of_the_voxels(scan, volume, folder);
+  }
+}
 
-INSTANTIATE_TEST_SUITE_P(Debian, LargeSampleBars, testing::Values(kSkull, kLiver), testing::PrintToStringParamName());
+const std::vector<Scan> kSamplesAtSize = {
+    {"skull", "skull_2.9.inr", {"--iso", "2.9"}, {{2.63, 300'000}, {1.765, 1'000'000}},
+     {"16:48,16:48,16:48", "0:64,0:64,0:64"}, 1.82},
+    {"liver", "liver.inr.gz", {"--iso", "64", "--smooth", "0.8"}, {{2.94, 300'000}, {1.96, 1'000'000}},
+     {"200:248,120:168,80:128", "150:214,150:214,60:124"}, 0.308}};
+
+// Isovalues as `delvox info` suggests them, or near: none is a sample's own value. At one that is (the Iguana's 80 and
+// 120), ties make specks as thin as a float step, and a run may end with 5. Midway between integers samples do not tie,
+// but saddles of faces may, so that two sheets touch in a point: hence 119.3, not 119.5, where topology is counted. The
+// Iguana's bone is a thousand surfaces, which take more than 100 k tets at any size: its skin has the smallest mesh.
+const std::vector<Scan> kScans = {
+    {"spm152", "spm152.nii.gz", {"--iso", "40"}, {{5.59, 50'000}, {2.92, 300'000}, {1.92, 1'000'000}},
+     {"80:112,100:132,80:112", "100:132,60:92,100:132", "60:108,120:168,100:148", "30:94,100:164,60:124"}, 0.3687},
+    {"CT_pitch_bone", "CT_pitch.nii.gz", {"--iso", "175.5"}, {{3.23, 50'000}, {1.66, 300'000}, {1.095, 1'000'000}},
+     {"60:92,200:232,20:52", "110:158,60:108,6:54"}, 0.406},
+    {"CT_pitch_skin", "CT_pitch.nii.gz", {"--iso", "35.5"}, {{4.71, 50'000}, {2.62, 300'000}, {1.65, 1'000'000}},
+     {"20:52,100:132,10:42", "20:68,90:138,6:54"}, 0.406},
+    {"CT_AVM", "CT_AVM.nii.gz", {"--iso", "180"}, {{1.756, 50'000}, {0.93, 300'000}, {0.62, 1'000'000}},
+     {"110:158,110:158,60:108", "90:154,90:154,60:124"}, 0.3599},
+    {"Iguana_skin", "Iguana.nii.gz", {"--iso", "43.5"}, {{0.71, 50'000}, {0.38, 300'000}, {0.25, 1'000'000}},
+     {"90:138,60:108,70:118", "70:134,90:154,70:134"}, 0.0509},
+    {"Iguana_bone", "Iguana.nii.gz", {"--iso", "119.3"}, {{0.205, 300'000}, {0.12, 1'000'000}},
+     {"80:112,100:132,80:112", "90:138,160:208,70:118", "90:138,60:108,70:118"}, 0.0509}};
+
+INSTANTIATE_TEST_SUITE_P(Debian, LargeSampleBars, testing::ValuesIn(kSamplesAtSize), testing::PrintToStringParamName());
 INSTANTIATE_TEST_SUITE_P(Scans, ScanBars, testing::ValuesIn(kScans), testing::PrintToStringParamName());
-INSTANTIATE_TEST_SUITE_P(Scans, ScanTopology, testing::ValuesIn(kScans), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace delvox::test

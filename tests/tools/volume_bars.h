@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <ostream>
 
+#include "delvox/mesh_io/read_mesh.h"
 #include "run_delvox.h"
 
 namespace delvox::test {
@@ -14,10 +15,16 @@ namespace fs = std::filesystem;
 
 inline constexpr const char* kSamples = "/usr/share/doc/libcgal-dev/data.tar.gz";
 
+/// A size and what it gives.
+struct Aim {
+  double size;       ///< mm
+  std::size_t tets;  ///< about so many
+};
+
 struct Scan {
   std::string name, file;
   std::vector<std::string> options;
-  std::vector<double> sizes;  ///< mm; about 50 k, 300 k and 1 M tets
+  std::vector<Aim> aims;
   std::vector<std::string> crops = {};
   double half_voxel = 0;      ///< mm
 };
@@ -42,21 +49,24 @@ inline std::vector<std::string> joined(std::vector<std::string> a, const std::ve
   return a;
 }
 
-/// Every promise verified at the end of the run, the same bytes on a second run, and the full check against the voxels:
-/// surface nodes within 1e-4 voxel, each surface ball within its bound.
-inline void expect_promises_held(const std::string& volume, const std::vector<std::string>& options, double size,
-                          const TemporaryFolder& folder) {
+/// Every promise verified at the end of the run, about as many tets as meant, the same bytes on a second run, and the
+/// full check against the voxels: surface nodes within 1e-4 voxel, each surface ball within its bound.
+inline void expect_promises_held(const std::string& volume, const std::vector<std::string>& options, const Aim& aim,
+                                 const TemporaryFolder& folder) {
+  SCOPED_TRACE(volume + " at size " + std::to_string(aim.size));
   const std::string first = folder / "first.vtu", second = folder / "second.vtu";
   const auto mesh = [&](const std::string& out) {
-    return run_delvox(joined({"tet", volume, "--size", std::to_string(size), "-o", out, "--quiet"}, options));
+    return run_delvox(joined({"tet", volume, "--size", std::to_string(aim.size), "-o", out, "--quiet"}, options));
   };
   const Outcome run = mesh(first);
   ASSERT_EQ(run.code, 0) << run.err;
+  const double tets = static_cast<double>(std::get<TetMesh>(read_mesh(first).mesh).tets.size());
+  EXPECT_NEAR(tets / static_cast<double>(aim.tets), 1, 0.2) << tets << " tets";
   ASSERT_EQ(mesh(second).code, 0);
   EXPECT_TRUE(read_file(first) == read_file(second)) << "a second run gave other bytes";
-  const Outcome check = run_delvox(joined({"check", first, "--volume", volume, "--min-component",
-                                           std::to_string(4.0 / 3 * 3.14159265358979 * size * size * size)},
-                                          options));
+  const double ball = 4.0 / 3 * 3.14159265358979 * aim.size * aim.size * aim.size;
+  const Outcome check =
+      run_delvox(joined({"check", first, "--volume", volume, "--min-component", std::to_string(ball)}, options));
   EXPECT_EQ(check.code, 0) << check.out << check.err;
 }
 
