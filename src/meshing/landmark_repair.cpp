@@ -74,8 +74,7 @@ bool Refinement::repair_links() {
   for (std::uint32_t link : watch_.take_links()) {
     const auto [a, b] = watch_.link(link);
     const CellId cell_a = cell_of_landmark({a}), cell_b = cell_of_landmark({b});
-    constexpr int kHalvings = 16;
-    const auto place = misplaced_on_link(watch_.point(a), cell_a, watch_.point(b), cell_b, kHalvings);
+    const auto place = misplaced_on_link(watch_.point(a), cell_a, watch_.point(b), cell_b);
     if (place) misplaced.push_back(*place);
   }
   bool inserted = false;
@@ -85,17 +84,37 @@ bool Refinement::repair_links() {
   return inserted;
 }
 
-/// A cell of the other label on the link from a in one cell to b in another: halves the link until its ends lie in one
-/// cell or in neighbours.
-std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b,
-                                                                       CellId cell_b, int halvings) const {
-  const auto& near = delaunay_.neighbors(cell_a);
-  if (cell_a == cell_b || std::count(near.begin(), near.end(), cell_b) > 0 || halvings == 0) return std::nullopt;
-  const Point3 middle = midpoint(a, b);
-  const CellId cell = delaunay_.locate(middle, cell_a);
-  if (const auto p = crossing_beside(middle, cell)) return MisplacedCell{*p, cell, delaunay_.stamp(cell)};
-  if (const auto found = misplaced_on_link(a, cell_a, middle, cell, halvings - 1)) return found;
-  return misplaced_on_link(middle, cell, b, cell_b, halvings - 1);
+/// The first cell of the other label that the link from a, in `cell`, to b, in `last`, runs through: from each cell on
+/// through the facet that the link leaves it by.
+std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Point3& a, CellId cell, const Point3& b,
+                                                                       CellId last) const {
+  constexpr int kMostCells = 1000;  // a walk that rounding leads astray finds nothing
+  const Vector3 ab = b - a;
+  const Label label = delaunay_.label(cell);
+  CellId came_from = kNone;
+  double entered = 0;
+  for (int cells = 0; cells < kMostCells && cell != last; ++cells) {
+    double left = 1;
+    CellId next = kNone;
+    for (int i = 0; i < 4; ++i) {
+      const auto v = delaunay_.vertices(FacetId{cell, i});
+      const Point3& p = delaunay_.point(v[0]);
+      const Vector3 outward = cross(delaunay_.point(v[1]) - p, delaunay_.point(v[2]) - p);
+      const double steepness = dot(outward, ab), t = dot(outward, p - a) / steepness;
+      if (delaunay_.neighbors(cell)[i] == came_from || steepness <= 0 || t >= left) continue;
+      left = t;
+      next = delaunay_.neighbors(cell)[i];
+    }
+    if (delaunay_.label(cell) != label) {
+      const auto p = crossing_beside(a + (0.5 * (entered + left)) * ab, cell);
+      if (p) return MisplacedCell{*p, cell, delaunay_.stamp(cell)};
+    }
+    if (next == kNone || next == RestrictedDelaunay::kBeyond) break;
+    entered = std::max(entered, left);
+    came_from = cell;
+    cell = next;
+  }
+  return std::nullopt;
 }
 
 /// With every link in place: splits the balls of pieces without landmarks, which are not real, one for each piece.

@@ -91,8 +91,7 @@ class Refinement {
   bool insert_for_landmark(const Point3& p, CellId hint);
   bool repair_links();
   bool repair_pieces();
-  std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell_a, const Point3& b, CellId cell_b,
-                                                 int halvings) const;
+  std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell, const Point3& b, CellId last) const;
   std::vector<SurfaceBall> largest_balls(const Pieces& pieces, const std::vector<bool>& real) const;
   Box3 box_of_change(const Star& star) const;
   void note_change(const Box3& box, VertexId near);

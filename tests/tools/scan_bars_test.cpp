@@ -36,8 +36,7 @@ TEST_P(ScanBars, CropsAtHalfAVoxelHaveTheTopologyOfTheVoxels) {
   expect_topology_of_the_voxels(GetParam(), volume, folder);
 }
 
-// One or two handles too many in either: links between landmarks are tested for joining pieces only, so that a thin
-// neck between pieces joined elsewhere can go unnoticed, though `check --same-topology` sees it.
+// One handle too many in either, where no link of the landmarks' skeleton passes; `check --same-topology` sees it.
 TEST(ScanTopology, DISABLED_EveryThinNeckOfACropIsThatOfTheVoxels) {
   const Scan crops[] = {
       {"spm152", "spm152.nii.gz", {"--iso", "40"}, {}, {"60:124,100:164,80:144"}, 0.3687},
