@@ -26,8 +26,7 @@ Circumsphere circumsphere(const Point3& a, const Point3& b, const Point3& c, con
   // quotient keeps nine digits.
   constexpr double kSafeRatio = 1e-9 * 1e-9 * 1e6;
   if (six_volume * six_volume < kSafeRatio * uu * vv * ww) return exact_circumsphere(a, b, c, d);
-  const Vector3 offset =
-      (0.5 / six_volume) * (uu * vw + vv * cross(w, u) + ww * cross(u, v));
+  const Vector3 offset = (0.5 / six_volume) * (uu * vw + vv * cross(w, u) + ww * cross(u, v));
   return {a + offset, squared_norm(offset)};
 }
 

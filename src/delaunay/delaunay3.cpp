@@ -8,19 +8,14 @@
 #include "delvox/core/mesh.h"
 
 namespace delvox {
-namespace {
-
-constexpr VertexId kCorners = 4;
-
-}  // namespace
 
 Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds) {
   const Point3 c = bounds.center();
   // Far enough that no circumcentre of a cell with a corner can lie in `bounds`; odd factors keep the corners off the
   // planes and spheres of the data.
   const double far = 7.31 * bounds.diagonal();
-  for (const Point3& corner : {Point3{1.01, 1.02, 1.03}, Point3{-1.07, 1.08, -1.09}, Point3{1.04, -1.05, -1.06},
-                               Point3{-1.1, -1.11, 1.12}}) {
+  for (const Point3& corner :
+       {Point3{1.01, 1.02, 1.03}, Point3{-1.07, 1.08, -1.09}, Point3{1.04, -1.05, -1.06}, Point3{-1.1, -1.11, 1.12}}) {
     vertices_.push_back({c + far * corner, kOutside});
   }
   // Below this radius the rounding of a circumcentre, which grows with its coordinates, is no longer far below the
@@ -214,8 +209,8 @@ void Delaunay3::set_cell(CellId cell, const std::array<VertexId, 4>& vertices, c
 VertexId Delaunay3::commit(const Star& star, std::vector<CellId>& created) {
   const VertexId apex = new_vertex(star.apex);
   // The zone's numbers are used again at once: neighbours stay near in memory.
-  created.assign(star.zone.begin(), star.zone.begin() + static_cast<std::ptrdiff_t>(
-                                                            std::min(star.zone.size(), star.tets.size())));
+  created.assign(star.zone.begin(),
+                 star.zone.begin() + static_cast<std::ptrdiff_t>(std::min(star.zone.size(), star.tets.size())));
   for (std::size_t i = star.tets.size(); i < star.zone.size(); ++i) {
     marks_[star.zone[i]].stamp = 0;
     free_cells_.push_back(star.zone[i]);

@@ -18,11 +18,12 @@ namespace delvox {
 /// in a hundred in-sphere tests, exact predicates the rest. Numbers of dead cells and vertices are used again; a cell's
 /// stamp tells whether it is still the cell that was meant.
 ///
-/// All lies inside one tetrahedron of four corner vertices (numbers 0 to 3) far outside the data; the cell with number
-/// kOutside stands for all that is beyond it.
+/// All lies inside one tetrahedron of four corner vertices (numbers below kCorners) far outside the data; the cell with
+/// number kOutside stands for all that is beyond it.
 class Delaunay3 {
  public:
   static constexpr CellId kOutside = 0;
+  static constexpr VertexId kCorners = 4;
 
   /// Every point inserted later must lie inside `bounds`.
   explicit Delaunay3(const Box3& bounds);
@@ -64,8 +65,8 @@ class Delaunay3 {
   void evaluate(const Point3& p, CellId hint, Star& star) const;
   /// Whether the cell belongs to the zone of the star evaluated last. pre: no other search since.
   bool in_zone(CellId cell) const { return marks_[cell].visited == epoch_; }
-  /// Inserts the apex of the star evaluated last; `created` receives the new cells in the order of the star's tets, with
-  /// the apex as their first vertex. pre: !star.duplicate, no other search since.
+  /// Inserts the apex of the star evaluated last; `created` receives the new cells in the order of the star's tets,
+  /// with the apex as their first vertex. pre: !star.duplicate, no other search since.
   VertexId commit(const Star& star, std::vector<CellId>& created);
   /// Removes a vertex; `destroyed` receives the numbers of the cells that are gone, `created` of those that fill the
   /// hole. pre: no corner.

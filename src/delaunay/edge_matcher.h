@@ -88,10 +88,10 @@ class EdgeMatcher {
     }
   }
 
-  std::vector<Known> known_;                        // per vertex of the triangulation
-  std::vector<std::array<std::uint32_t, 3>> names_;  // per tet of the star
+  std::vector<Known> known_;                           // per vertex of the triangulation
+  std::vector<std::array<std::uint32_t, 3>> names_;    // per tet of the star
   std::vector<std::uint32_t> degrees_, first_, next_;  // per vertex of the star
-  std::vector<std::uint32_t> table_;                // tet of each pair of the star's vertices
+  std::vector<std::uint32_t> table_;                   // tet of each pair of the star's vertices
   std::vector<Edge> edges_;
   std::uint32_t round_ = 0;
 };

@@ -24,7 +24,7 @@ void Delaunay3::HoleFilling::insert_neighbours(const Delaunay3& whole, VertexId 
   name_in_whole_ = {0, 1, 2, 3};
   CellId hint = around_.cell_of(0);
   for (auto& [in_whole, in_around] : name_in_around_) {
-    if (in_whole < 4) continue;  // the corners are the same in both
+    if (in_whole < kCorners) continue;  // the corners are the same in both
     around_.evaluate(whole.point(in_whole), hint, star_);
     in_around = around_.commit(star_, created_);
     name_in_whole_.push_back(in_whole);
@@ -42,8 +42,8 @@ void Delaunay3::HoleFilling::find_walls(const Delaunay3& whole, VertexId vertex,
     const FacetId wall{cell, static_cast<int>(std::find(corners.begin(), corners.end(), vertex) - corners.begin())};
     const auto v = whole.vertices(wall);
     const bool hull = whole.neighbors(cell)[wall.index] == kOutside;
-    walls_.push_back({canonical({renamed(v[0]), renamed(v[1]), renamed(v[2])}),
-                      hull ? FacetId{kOutside, 0} : whole.mirror(wall)});
+    walls_.push_back(
+        {canonical({renamed(v[0]), renamed(v[1]), renamed(v[2])}), hull ? FacetId{kOutside, 0} : whole.mirror(wall)});
   }
   std::sort(walls_.begin(), walls_.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
 }

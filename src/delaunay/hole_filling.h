@@ -9,9 +9,9 @@
 
 namespace delvox {
 
-/// The tetrahedra that take the place of a vertex and its cells. A second, small triangulation of the vertices around it
-/// and the same corners holds them: since the perturbed Delaunay triangulation is unique, they are its cells inside the
-/// hole, whatever the vertex's neighbours look like.
+/// The tetrahedra that take the place of a vertex and its cells. A second, small triangulation of the vertices around
+/// it and the same corners holds them: since the perturbed Delaunay triangulation is unique, they are its cells inside
+/// the hole, whatever the vertex's neighbours look like.
 class Delaunay3::HoleFilling {
  public:
   struct Side {
@@ -40,7 +40,7 @@ class Delaunay3::HoleFilling {
   std::uint32_t number_of(CellId cell);
 
   Delaunay3 around_;
-  std::vector<VertexId> name_in_whole_;                       // of each vertex of around_
+  std::vector<VertexId> name_in_whole_;                        // of each vertex of around_
   std::vector<std::pair<VertexId, VertexId>> name_in_around_;  // sorted by the name in the whole
   std::vector<std::pair<Corners, FacetId>> walls_;             // sorted; corners as seen from outside the hole
   std::vector<std::uint32_t> numbers_;                         // of each cell of around_ among the tets, or kNone

@@ -11,16 +11,17 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-Kernel::Point_3 cgal(const Point3& p) { return {p.x, p.y, p.z}; }
+Kernel::Point_3 cgal(const Point3& p) {
+  return {p.x, p.y, p.z};
+}
 
 /// Every point is lifted onto the paraboloid and then raised by an infinitely small amount, the lexicographically
 /// largest by the most: the first raised point whose cofactor in the in-sphere determinant is not zero decides. The
 /// cofactor of a corner of the tet is the volume of the tet with p in its place, and p itself, when raised, is outside.
 bool in_sphere_perturbed(const std::array<Point3, 4>& tet, const Point3& p) {
   std::array<const Point3*, 5> by_weight{&tet[0], &tet[1], &tet[2], &tet[3], &p};
-  std::sort(by_weight.begin(), by_weight.end(), [](const Point3* a, const Point3* b) {
-    return std::tie(a->x, a->y, a->z) > std::tie(b->x, b->y, b->z);
-  });
+  std::sort(by_weight.begin(), by_weight.end(),
+            [](const Point3* a, const Point3* b) { return std::tie(a->x, a->y, a->z) > std::tie(b->x, b->y, b->z); });
   for (const Point3* raised : by_weight) {
     if (raised == &p) return false;
     std::array<Point3, 4> replaced = tet;

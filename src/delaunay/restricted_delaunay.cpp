@@ -5,14 +5,9 @@
 #include "delaunay/spatial_order.h"
 
 namespace delvox {
-namespace {
-
-constexpr VertexId kFirstVertex = 4;  // those before are the corners
-
-}  // namespace
 
 RestrictedDelaunay::RestrictedDelaunay(const Oracle& oracle) : oracle_(oracle), delaunay_(oracle.bounds()) {
-  kinds_.assign(kFirstVertex, VertexKind::kCorner);
+  kinds_.assign(Delaunay3::kCorners, VertexKind::kCorner);
   for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) describe(cell);
 }
 
@@ -41,8 +36,7 @@ void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds, const Go
   }
 }
 
-std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Point3>& points,
-                                                          const GoOn& go_on) {
+std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Point3>& points, const GoOn& go_on) {
   std::vector<VertexId> vertices(points.size(), kNone);
   const std::uint32_t first_stamp = delaunay_.next_stamp();
   created_.assign(1, delaunay_.cell_of(0));
@@ -66,7 +60,7 @@ std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Poin
 }
 
 Label RestrictedDelaunay::label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere) const {
-  const bool corner = std::any_of(vertices.begin(), vertices.end(), [](VertexId v) { return v < kFirstVertex; });
+  const bool corner = std::any_of(vertices.begin(), vertices.end(), [](VertexId v) { return v < Delaunay3::kCorners; });
   return corner ? 0 : oracle_.label(sphere.center);
 }
 
@@ -84,7 +78,8 @@ Point3 RestrictedDelaunay::dual_crossing(const Point3& center_a, Label label_a, 
 const SurfaceBall& RestrictedDelaunay::compute_ball(FacetId facet) {
   const FacetId other = mirror(facet);
   SurfaceBall ball;
-  ball.center = dual_crossing(sphere(facet.cell).center, label(facet.cell), sphere(other.cell).center, label(other.cell));
+  ball.center =
+      dual_crossing(sphere(facet.cell).center, label(facet.cell), sphere(other.cell).center, label(other.cell));
   ball.squared_radius = squared_distance(ball.center, point(vertices(facet)[0]));
   const std::uint32_t number = balls_.add(ball);
   balls_.set(facet, number);

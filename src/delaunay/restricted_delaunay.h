@@ -18,8 +18,8 @@ enum class VertexKind : std::uint8_t { kCorner, kSurface, kInterior, kRemoved };
 
 /// Del S of a point set with the complexes restricted to an oracle's domain: a cell belongs to Del|O if its label, that
 /// of its circumcentre, is not 0, a facet to the surface if its dual edge is bipolar, that is, if the labels of its two
-/// cells differ. Cells with a corner vertex are outside. Surface balls are computed on demand only (the lazy strategy of
-/// the book, 14.1.3) and kept until their facet changes.
+/// cells differ. Cells with a corner vertex are outside. Surface balls are computed on demand only (the lazy strategy
+/// of the book, 14.1.3) and kept until their facet changes.
 class RestrictedDelaunay {
  public:
   /// The number that stands for all beyond the corners, of label 0; it has no vertices.
@@ -27,8 +27,8 @@ class RestrictedDelaunay {
 
   explicit RestrictedDelaunay(const Oracle& oracle);
 
-  /// Inserts points of the surface in spatial order; all cells count as created. go_on() is asked before each, so that it
-  /// may throw; what it says is not heeded: with fewer seeds there would be components without any.
+  /// Inserts points of the surface in spatial order; all cells count as created. go_on() is asked before each, so that
+  /// it may throw; what it says is not heeded: with fewer seeds there would be components without any.
   void insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on = always_go_on);
 
   /// Inserts points inside the domain that lie in no computed surface ball and on no vertex, in spatial order: many at
@@ -37,8 +37,8 @@ class RestrictedDelaunay {
   std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const GoOn& go_on);
 
   /// Sets a part of the domain aside: its cells are placeholders for a mesh of it that is known otherwise, until
-  /// take_back(). `walls`: each counter-clockwise seen from outside the part. False, and nothing is set aside, if one of
-  /// them is no facet.
+  /// take_back(). `walls`: each counter-clockwise seen from outside the part. False, and nothing is set aside, if one
+  /// of them is no facet.
   bool set_aside(const std::vector<WalledRegion::Wall>& walls) { return aside_.enclose(delaunay_, walls); }
   void take_back() { aside_.clear(); }
   bool placeholder(CellId cell) const { return aside_.inside(cell); }
@@ -50,7 +50,7 @@ class RestrictedDelaunay {
   std::size_t cell_capacity() const { return delaunay_.cell_capacity(); }
   std::size_t vertex_capacity() const { return delaunay_.vertex_capacity(); }
   /// Vertices other than the corners.
-  std::size_t vertex_count() const { return delaunay_.vertex_count() - 4; }
+  std::size_t vertex_count() const { return delaunay_.vertex_count() - Delaunay3::kCorners; }
   /// Changes whenever the number is given to another cell; 0: not in use.
   std::uint32_t stamp(CellId cell) const { return delaunay_.stamp(cell); }
   bool alive(CellId cell, std::uint32_t stamp) const { return delaunay_.stamp(cell) == stamp; }

@@ -6,9 +6,9 @@
 
 namespace delvox {
 
-/// Indices of the points in biased randomised insertion order: rounds of doubling size, drawn by a hash of the coordinates, each
-/// sorted along a Hilbert-like curve (Amenta, Choi, Rote, "Incremental constructions con BRIO", 2003). Depends on the
-/// points alone.
+/// Indices of the points in biased randomised insertion order: rounds of doubling size, drawn by a hash of the
+/// coordinates, each sorted along a Hilbert-like curve (Amenta, Choi, Rote, "Incremental constructions con BRIO",
+/// 2003). Depends on the points alone.
 std::vector<std::uint32_t> spatial_order(const std::vector<Point3>& points);
 
 /// A 64-bit hash of a point's coordinates.

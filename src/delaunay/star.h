@@ -13,15 +13,15 @@ namespace delvox {
 /// The tetrahedra that inserting a point would make, known before anything is changed.
 struct Star {
   struct Tet {
-    FacetId outer;                     ///< facet of the cell that will be its neighbour opposite the apex
-    std::array<VertexId, 3> vertices;  ///< the other three; (apex, vertices) is positive
+    FacetId outer;                        ///< facet of the cell that will be its neighbour opposite the apex
+    std::array<VertexId, 3> vertices;     ///< the other three; (apex, vertices) is positive
     std::array<std::uint32_t, 3> beside;  ///< the star's tets opposite them
-    Label label = 0;                   ///< of the circumcentre, once labelled
+    Label label = 0;                      ///< of the circumcentre, once labelled
     Circumsphere sphere;
   };
   Point3 apex;
-  bool duplicate = false;        ///< the apex is a vertex already; zone and tets are empty
-  std::vector<CellId> zone;      ///< cells whose circumsphere contains the apex
+  bool duplicate = false;    ///< the apex is a vertex already; zone and tets are empty
+  std::vector<CellId> zone;  ///< cells whose circumsphere contains the apex
   std::vector<Tet> tets;
 };
 

@@ -67,7 +67,7 @@ class SurfaceBalls {
     return number;
   }
 
-  std::vector<std::uint32_t> entries_;                  // per cell: its place in numbers_
+  std::vector<std::uint32_t> entries_;                 // per cell: its place in numbers_
   std::vector<std::array<std::uint32_t, 4>> numbers_;  // per facet of such a cell: its ball
   std::vector<SurfaceBall> balls_;
   std::vector<std::uint32_t> free_entries_, free_balls_;

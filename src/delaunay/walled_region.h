@@ -13,8 +13,8 @@ class WalledRegion {
  public:
   using Wall = std::array<VertexId, 3>;
 
-  /// `walls`: each counter-clockwise seen from outside the region. False, and the region is empty, unless every wall is a
-  /// facet of the triangulation.
+  /// `walls`: each counter-clockwise seen from outside the region. False, and the region is empty, unless every wall is
+  /// a facet of the triangulation.
   bool enclose(const Delaunay3& delaunay, const std::vector<Wall>& walls);
   void clear() { places_.clear(); }
 

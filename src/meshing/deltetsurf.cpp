@@ -28,7 +28,7 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
     refinement.refine_surface();  // steps 2 and 3, Quality
   } while (repair_topology());
   budget.begin_stage("interior");
-  refinement.fill_interior(options.tets);
+  refinement.fill_interior(options.tets);  // not in the book: most of what step 7 would insert, at once
   refinement.watch_tets(options.tets);
   do {
     budget.begin_stage("tets");

@@ -9,8 +9,8 @@
 namespace delvox {
 namespace {
 
-/// Edge of the lattice's cubes in units of the bound on circumradii, of which a tetrahedron then uses 0.81: with 1.78 it
-/// would use all of it, but the lattice would be much coarser than what refinement makes of the rest.
+/// Edge of the lattice's cubes in units of the bound on circumradii, of which a tetrahedron then uses 0.81: with 1.78
+/// it would use all of it, but the lattice would be much coarser than what refinement makes of the rest.
 constexpr double kCube = 1.45;
 /// A tet's circumsphere reaches 0.654 cubes from its corners at most: no vertex that far from all sites disturbs it.
 constexpr double kClearance = 0.68;

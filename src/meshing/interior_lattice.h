@@ -27,8 +27,8 @@ class InteriorLattice {
     VertexId vertex = kNone;
   };
 
-  /// pre: delaunay has the balls of all its restricted triangles. `cell_size`: bound on circumradii. Has no sites if the
-  /// box around the surface would hold too many, or if go_on() says to end.
+  /// pre: delaunay has the balls of all its restricted triangles. `cell_size`: bound on circumradii. Has no sites if
+  /// the box around the surface would hold too many, or if go_on() says to end.
   InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size, const GoOn& go_on);
 
   /// All of them; nothing but their number is known until find_depths().
@@ -37,15 +37,15 @@ class InteriorLattice {
   void find_depths();
   Point3 point(Site site) const;
   std::vector<ShellSite>& shell() { return shell_; }
-  /// Blocks the sites whose vertices are gone and those near vertices that the surface has got since, and moves the shell
-  /// inward there. False if there is none.
+  /// Blocks the sites whose vertices are gone and those near vertices that the surface has got since, and moves the
+  /// shell inward there. False if there is none.
   bool adapt(const RestrictedDelaunay& delaunay);
   /// The tets with at least one deep corner. pre: all of shell() have their vertices.
   DeepLattice deep() const;
 
  private:
-  /// State of a site: steps from the nearest that is blocked or outside. With a shell of three, step 2 of DelTetSurf can
-  /// remove a site beside the surface without touching the tets that have deep neighbours.
+  /// State of a site: steps from the nearest that is blocked or outside. With a shell of three, step 2 of DelTetSurf
+  /// can remove a site beside the surface without touching the tets that have deep neighbours.
   enum Depth : std::uint8_t { kBlocked = 0, kDeep = 4 };
   using Tet = std::array<Site, 4>;
 

@@ -44,8 +44,8 @@ bool Refinement::repair_landmark(const LandmarkWatch::Due& due) {
   return inserted;
 }
 
-/// If the cell that holds the landmark has the other label: a point of the surface inside the cell's circumball, between
-/// the landmark and the circumcentre. Inserting it destroys the cell.
+/// If the cell that holds the landmark has the other label: a point of the surface inside the cell's circumball,
+/// between the landmark and the circumcentre. Inserting it destroys the cell.
 std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId cell) const {
   const Label label = oracle_.label(landmark);
   if (label == delaunay_.label(cell)) return std::nullopt;
@@ -59,7 +59,8 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
   const Star& star = evaluate(p, hint);
   bool too_near = star.duplicate;
   for (const Star::Tet& tet : star.tets) {
-    for (VertexId vertex : tet.vertices) too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;
+    for (VertexId vertex : tet.vertices)
+      too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;
   }
   if (too_near) return false;
   if (!insert_surface_point(p, star.zone.front())) return false;

@@ -36,7 +36,8 @@ void LandmarkWatch::sort_into_cubes() {
   // Landmarks lie on the surface's voxels: cubes of two links' width hold a handful each.
   const double most_cubes = 4.0 * static_cast<double>(points_.size()) + 64;
   const Vector3 extent = box_.max - box_.min;
-  width_ = std::max({2 * reach_, std::cbrt(extent.x * extent.y * extent.z / most_cubes), 1e-300, box_.diagonal() / 1000});
+  width_ =
+      std::max({2 * reach_, std::cbrt(extent.x * extent.y * extent.z / most_cubes), 1e-300, box_.diagonal() / 1000});
   for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<int>(extent[axis] / width_) + 1;
   std::vector<std::size_t> cubes;
   for (const Point3& p : points_) cubes.push_back(cube_index(cube_of(p)));

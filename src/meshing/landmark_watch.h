@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +29,6 @@ class LandmarkWatch {
 
   /// The surface has changed somewhere in the box, at `near`.
   void note_change(const Box3& box, VertexId near);
-  bool changed() const { return all_ || !changes_.empty(); }
   /// Landmarks near the changes noted since the last call, each once, in order.
   std::vector<Due> take_due();
   /// Adds the links of these landmarks to those waiting.

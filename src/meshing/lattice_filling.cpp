@@ -57,7 +57,7 @@ void Refinement::insert_deep() {
   delaunay_.take_back();
   const std::vector<Point3> points = std::move(deep_->points);
   deep_.reset();
-  delaunay_.insert_interior(points, [] { return true; });
+  delaunay_.insert_interior(points, always_go_on);
   note_new_facets();
   enqueue_created();
 }

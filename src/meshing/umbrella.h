@@ -15,9 +15,9 @@ struct Umbrella {
 /// T_p of the book's TopoDisk(p).
 Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex);
 
-/// Those of the vertices whose umbrella is no disk, in their order: for many vertices, all umbrellas are gathered in one
-/// sweep over the cells, at a fraction of what walking around each would cost.
-/// pre: every restricted triangle has its surface ball.
+/// Those of the vertices whose umbrella is no disk, in their order: for many vertices, all umbrellas are gathered in
+/// one sweep over the cells, at a fraction of what walking around each would cost. pre: every restricted triangle has
+/// its surface ball.
 std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices);
 
 }  // namespace delvox
