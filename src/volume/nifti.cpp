@@ -96,14 +96,22 @@ void apply_scaling(const NiftiHeader& nifti, SampleLayout& layout, std::vector<s
   }
 }
 
-/// Moves layout.offset to the volume asked for.
-void select_volume(const fs::path& path, int index, std::size_t count, SampleLayout& layout) {
-  const std::uint64_t volume_bytes = static_cast<std::uint64_t>(count) * size_of(layout.type);
-  std::uint64_t skipped = 0;
-  if (__builtin_mul_overflow(volume_bytes, static_cast<std::uint64_t>(index), &skipped) ||
-      __builtin_add_overflow(layout.offset, skipped, &layout.offset)) {
-    fail_input(path, "the size overflows", "the header is damaged: copy it again");
+/// Throws InputError unless `samples` can hold all volumes, whichever is asked for: a header that promises more is
+/// damaged or the file cut short, and either puts the rest in doubt too. Gzipped files are not inflated to learn it.
+void check_all_volumes(const fs::path& path, const fs::path& samples, const SampleLayout& layout, std::size_t count,
+                       std::uint64_t volumes) {
+  std::uint64_t all = 0, bytes = 0;
+  if (__builtin_mul_overflow(std::uint64_t{count}, volumes, &all) ||
+      __builtin_mul_overflow(all, std::uint64_t{size_of(layout.type)}, &bytes)) {
+    fail_input(path, "the sizes of its " + std::to_string(volumes) + " volumes overflow",
+               "the header is damaged: copy or convert it again");
   }
+  check_payload(ByteSource(samples), layout, all);
+}
+
+/// Moves layout.offset to the volume asked for. pre: check_all_volumes
+void select_volume(int index, std::size_t count, SampleLayout& layout) {
+  layout.offset += static_cast<std::uint64_t>(count) * size_of(layout.type) * static_cast<std::uint64_t>(index);
 }
 
 NiftiHeader read_header(ByteSource& source) {
@@ -127,7 +135,9 @@ VolumeSourcePtr open_nifti(ByteSource source, const ReadVolumeOptions& options) 
   VolumeHeader header;
   check_volume_index(path, options, volumes, header);
   SampleLayout layout{sample_type(path, nifti.datatype), nifti.big_endian, payload_offset(path, nifti)};
-  select_volume(path, options.volume_index, count, layout);
+  const fs::path samples = nifti.pair ? image_of_pair(path) : path;
+  check_all_volumes(path, samples, layout, count, volumes);
+  select_volume(options.volume_index, count, layout);
   apply_scaling(nifti, layout, header.warnings);
   for (int axis = 0; axis < 3; ++axis) header.dims[axis] = static_cast<int>(dims[axis]);
   header.index_to_world = nifti_affine(path, nifti, header.dims, header.warnings);
@@ -138,7 +148,7 @@ VolumeSourcePtr open_nifti(ByteSource source, const ReadVolumeOptions& options) 
     header.warnings.push_back("bitpix is " + std::to_string(nifti.bitpix) + ", datatype says " + header.sample_type +
                               "; datatype was taken");
   }
-  return payload_source(path, std::move(header), nifti.pair ? image_of_pair(path) : path, layout);
+  return payload_source(path, std::move(header), samples, layout);
 }
 
 }  // namespace delvox

@@ -127,7 +127,7 @@ TEST_F(HostileVolume, DimensionsOfZeroNegativeAndHuge) {
     expect_error(file.bytes(), "truncated");
     expect_error(gzipped(file.bytes()), "truncated");
     file.dim = {7, 2, 3, 4, 32767, 32767, 32767, 32767};
-    expect_error(file.bytes().substr(0, 352 + (version - 1) * 192), "truncated");
+    expect_error(file.bytes().substr(0, 352 + (version - 1) * 192), "overflow");
   }
   NiftiFile file = plain();
   file.version = 2;
@@ -136,6 +136,31 @@ TEST_F(HostileVolume, DimensionsOfZeroNegativeAndHuge) {
     expect_error(file.bytes(), "x");
     file.dim = {7, 2, 3, 4, size, size, size, size};
     expect_error(file.bytes(), "overflow");
+  }
+}
+
+/// Whichever volume is asked for: a header that promises more than there is, is in doubt as a whole.
+TEST_F(HostileVolume, FilesThatLackSomeOfTheVolumesTheyPromise) {
+  NiftiFile file = plain();
+  file.version = 2;
+  for (const std::int64_t volumes : {std::int64_t{1} << 62, std::int64_t{1} << 60, std::int64_t{1} << 40}) {
+    file.dim = {5, 2, 3, 4, 1, volumes, 1, 1};
+    const std::string bytes = file.bytes();
+    const std::string part = volumes >> 60 != 0 ? "overflow" : "truncated";
+    expect_error(bytes, part);
+    expect_error(gzipped(bytes), part);
+  }
+  file.payload = counting_payload<std::uint8_t>(3 * 24);
+  for (int version : {1, 2}) {
+    file.version = version;
+    file.dim = {4, 2, 3, 4, 3, 1, 1, 1};
+    EXPECT_EQ(read_error(write_file(folder_ / "scan.nii", file.bytes())), "");
+    expect_error(file.bytes().substr(0, file.bytes().size() - 1), "truncated");
+    file.pair = true;
+    const fs::path header = write_file(folder_ / "pair.hdr", file.header());
+    write_file(folder_ / "pair.img", file.payload.substr(1));
+    expect_error(header, "truncated");
+    file.pair = false;
   }
 }
 
