@@ -1,11 +1,10 @@
 #include "volume/read_support.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "core/available_memory.h"
 #include "delvox/core/errors.h"
 #include "volume/byte_source.h"
 #include "volume/grid_builder.h"
@@ -33,11 +32,11 @@ std::string text_of(const std::array<std::int64_t, 3>& dims) {
 }
 
 void check_memory(const std::filesystem::path& path, const std::string& what, double needed) {
-  const double memory = static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE));
+  const auto memory = static_cast<double>(available_memory());
   if (needed <= memory && needed <= std::ldexp(1.0, 40)) return;
   fail_input(path,
-             what + " needs about " + gigabytes(needed) + " of memory, this machine has " + gigabytes(memory),
-             "crop or resample the file first, or check its header");
+             what + " needs about " + gigabytes(needed) + " of memory, " + gigabytes(memory) + " are available",
+             "crop or resample the file first, check its header, or free some memory");
 }
 
 }  // namespace

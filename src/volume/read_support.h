@@ -18,9 +18,9 @@ class ByteSource;
 [[noreturn]] void fail_input(const std::filesystem::path& path, const std::string& cause, const std::string& mend);
 
 /// Number of samples of a volume of these dims, or InputError if a dim is not in 1..2^31-1 or the slices that are in
-/// memory at a time would not fit into that of this machine.
+/// memory at a time would not fit into what is available.
 std::size_t checked_voxel_count(const std::filesystem::path& path, const std::array<std::int64_t, 3>& dims);
-/// Throws InputError if a volume with these dims would not fit into this machine's memory as a whole.
+/// Throws InputError if a volume with these dims would not fit into the memory available as a whole.
 void check_fits_whole(const std::filesystem::path& path, const std::array<std::int64_t, 3>& dims);
 
 /// What the samples of a file are and where they lie.

@@ -62,7 +62,9 @@ openvdb::GridBase::Ptr load_grid(const fs::path& path, VdbGrid& vdb) {
   }
 }
 
-/// Ours say their extent; in others' it is the box of active voxels.
+/// Ours say their extent; in others' it is the box of active voxels. A file of a kilobyte may hold tiles of 4096^3
+/// voxels: nothing is allocated for the box before it is known to fit. (The tree itself takes no more than some thirty
+/// times the file.)
 openvdb::CoordBBox extent(const fs::path& path, const VdbGrid& vdb, const openvdb::GridBase& grid) {
   if (vdb.dims) {
     const std::array<std::int64_t, 3>& n = *vdb.dims;

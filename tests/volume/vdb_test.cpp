@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 #include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include "delvox/volume/write_volume.h"
 #include "volume/volume_files.h"
@@ -100,6 +102,42 @@ TEST(VdbReader, RefusesWhatHoldsNoVolume) {
   const auto wide = make_grid<openvdb::FloatGrid>({0, 0, 0}, {0, 0, 0});
   wide->tree().setValue({1 << 20, 1 << 20, 1 << 20}, 1);
   EXPECT_NE(read_error(save(folder / "d.vdb", {wide})).find("memory"), std::string::npos);
+}
+
+/// Limits the address space of this process to so much more than it has, for as long as it lives.
+class MemoryLimit {
+ public:
+  explicit MemoryLimit(std::uint64_t more) {
+    ::getrlimit(RLIMIT_AS, &before_);
+    std::uint64_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    rlimit limit = before_;
+    limit.rlim_cur = std::min<rlim_t>(before_.rlim_cur, pages * static_cast<std::uint64_t>(::getpagesize()) + more);
+    ::setrlimit(RLIMIT_AS, &limit);
+  }
+  ~MemoryLimit() { ::setrlimit(RLIMIT_AS, &before_); }
+  MemoryLimit(const MemoryLimit&) = delete;
+  MemoryLimit& operator=(const MemoryLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+TEST(VdbReader, RefusesTilesThatExpandBeyondTheMemoryThatIsAvailable) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer's own addresses are beyond any limit";
+#endif
+  const TempFolder folder;
+  const auto grid = make_grid<openvdb::FloatGrid>({0, 0, 0}, {0, 0, 0});
+  constexpr int kTile = 128;  // of the lower internal nodes
+  for (int i = 0; i < 5; ++i) grid->tree().addTile(2, {i * kTile, i * kTile, i * kTile}, 1, /*state=*/true);
+  const fs::path path = save(folder / "a.vdb", {grid});
+  EXPECT_LT(fs::file_size(path), 1u << 20);
+  const MemoryLimit limit(std::uint64_t{1} << 30);  // 640^3 voxels take twice that
+  const std::string error = read_error(path);
+  EXPECT_NE(error.find("640 x 640 x 640"), std::string::npos) << error;
+  EXPECT_NE(error.find("available"), std::string::npos) << error;
+  EXPECT_NE(error.find("a.vdb"), std::string::npos) << error;
 }
 
 TEST(VdbReader, RefusesTruncation) {
