@@ -34,7 +34,10 @@ bool needs_samples(const std::string& iso) {
 
 class MeshingRun {
  public:
-  explicit MeshingRun(const MeshingOptions& options) : options_(options), console_(options.console) {}
+  explicit MeshingRun(const MeshingOptions& options)
+      : options_(options),
+        console_(options.console),
+        progress_(ProgressDisplay::style_for_stderr(options.console.quiet)) {}
 
   /// The steps, in order. `report` already holds what is known before the run.
   void run(Json report) {
@@ -66,6 +69,7 @@ class MeshingRun {
 
   const MeshingOptions& options_;
   Console console_;
+  ProgressDisplay progress_;
   Stopwatch watch_;
   VolumeHeader file_header_;
   std::optional<Volume> volume_;
@@ -130,13 +134,12 @@ Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
   surface.min_angle_degrees = options_.min_angle_degrees;
   surface.max_deviation = options_.max_deviation.value_or(std::numeric_limits<double>::infinity());
   surface.min_ball_radius = min_ball_radius();
-  ProgressDisplay display(ProgressDisplay::style_for_stderr(console_.quiet()));
   RunControl control;
   control.limits = options_.limits;
   if (control.limits.max_seconds > 0) {  // what earlier runs of --tets have left of it
     control.limits.max_seconds = std::max(1e-3, control.limits.max_seconds - meshing_seconds());
   }
-  control.on_progress = [&display](const Progress& progress) { display.show(progress); };
+  control.on_progress = [this](const Progress& progress) { progress_.show(progress); };
   control.cancel = &cancel_requested();
   if (options_.kind == MeshKind::kSurface) return delsurf(oracle, {surface, control}, run_report_);
   return deltetsurf(oracle, {surface, {options_.radius_edge, cell_size_.value_or(size)}, control}, run_report_);
@@ -157,6 +160,7 @@ void MeshingRun::mesh_at(const SizeField& size) {
   const auto oracle = watch_.timed("oracle", [&] { return make_isosurface_oracle(filtered.volume, chosen_.surface); });
   throw_if_cancelled();
   mesh_ = watch_.timed("meshing", [&] { return run_mesher(*oracle, size); });
+  progress_.clear();
   for (const StageTime& stage : run_report_.stages) {
     console_.detail("stage " + stage.stage + ": " + number(stage.seconds, 3) + " s");
   }

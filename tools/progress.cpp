@@ -32,19 +32,23 @@ ProgressDisplay::Style ProgressDisplay::style_for_stderr(bool quiet) {
   return ::isatty(STDERR_FILENO) && !dumb ? Style::kBar : Style::kLines;
 }
 
-ProgressDisplay::~ProgressDisplay() {
+bool ProgressPace::due(const std::string& stage, Clock::time_point now) {
+  if (!told_.insert(stage).second && now - last_ < interval_) return false;
+  last_ = now;
+  return true;
+}
+
+ProgressDisplay::ProgressDisplay(Style style)
+    : style_(style), pace_(style == Style::kBar ? ProgressPace::Clock::duration(kBarInterval) : kLineInterval) {}
+
+void ProgressDisplay::clear() {
   if (bar_visible_) write_stderr("\r\033[K");
+  bar_visible_ = false;
 }
 
 void ProgressDisplay::show(const Progress& progress) {
-  if (style_ == Style::kNone) return;
-  const Clock::time_point now = Clock::now();
-  const bool new_stage = stage_ != progress.stage;
-  const auto interval = style_ == Style::kBar ? Clock::duration(kBarInterval) : Clock::duration(kLineInterval);
-  if (!new_stage && now - shown_ < interval) return;
-  stage_ = progress.stage;
-  shown_ = now;
-  std::string label = stage_;
+  if (style_ == Style::kNone || !pace_.due(progress.stage, ProgressPace::Clock::now())) return;
+  std::string label = progress.stage;
   label.resize(std::max<std::size_t>(label.size(), 9), ' ');
   const std::string counts =
       grouped(progress.vertices) + " vertices, " + grouped(progress.waiting) + " waiting";

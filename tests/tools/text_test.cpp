@@ -6,6 +6,7 @@
 #include "delvox/core/errors.h"
 #include "format.h"
 #include "patient_frame.h"
+#include "progress.h"
 #include "text_histogram.h"
 
 namespace delvox::tools {
@@ -45,6 +46,20 @@ TEST(FrameChange, TurnsTheWorldPointsOfFlags) {
   EXPECT_EQ(turned.crop_in_volume("1:5,3:,2:4"), "1:5,3:,2:4");
   EXPECT_EQ(unknown.target(), Frame::kLps);
   EXPECT_FALSE(unknown.turns());
+}
+
+TEST(ProgressPace, TellsEachStageOnceAndElseEveryInterval) {
+  using std::chrono::seconds;
+  ProgressPace pace(seconds(10));
+  const ProgressPace::Clock::time_point start = ProgressPace::Clock::now();
+  std::size_t lines = 0;
+  for (int n = 0; n < 600; ++n) {  // a minute of turns, ten a second
+    lines += pace.due(n % 2 == 0 ? "surface" : "topology", start + n * std::chrono::milliseconds(100));
+  }
+  EXPECT_GE(lines, 2u + 5);
+  EXPECT_LE(lines, 2u + 6);
+  EXPECT_TRUE(pace.due("tets", start + seconds(60)));
+  EXPECT_FALSE(pace.due("tets", start + seconds(61)));
 }
 
 TEST(TextHistogram, ShowsEveryOccupiedBinAndTheMarks) {
