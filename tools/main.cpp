@@ -81,7 +81,7 @@ int run_and_map_errors(const Arguments& arguments) {
   } catch (const IoError& error) {
     return fail(kExitOutput, error.what());
   } catch (const Cancelled&) {
-    return fail(kExitCancelled, "cancelled; nothing is left half-written");
+    return fail(kExitCancelled, "cancelled by " + cancelled_by() + "; nothing is left half-written");
   } catch (const std::bad_alloc&) {
     return fail(kExitBroken, "out of memory; give a larger --size, or --crop or --resample the volume");
   } catch (const std::filesystem::filesystem_error& error) {

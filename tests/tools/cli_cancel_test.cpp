@@ -1,6 +1,7 @@
 // Stopping the real program: signals and limits.
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -15,16 +16,26 @@ std::string make_sphere(const TemporaryFolder& folder) {
   return path;
 }
 
-TEST(CliCancel, CtrlCWhileMeshingExitsWith130AndLeavesNothing) {
+/// Runs a mesher, sends it the signals on its way, and expects a cancelled run that says so and leaves nothing.
+void expect_cancelled(const std::vector<int>& signals, const std::string& by) {
   TemporaryFolder in, out;
   const std::string volume = make_sphere(in);
-  for (int signal : {SIGINT, SIGTERM}) {
-    const Outcome outcome = run_delvox({"tet", volume, "--size", "0.4", "-o", out / "mesh.vtu", "-o", out / "mesh.stl"},
-                                       {.signal = signal, .signal_after = "surface"});
-    EXPECT_EQ(outcome.code, 130) << outcome.err;
-    EXPECT_NE(outcome.err.find("cancelled"), std::string::npos) << outcome.err;
-    EXPECT_TRUE(out.names().empty());
-  }
+  const Outcome outcome = run_delvox({"tet", volume, "--size", "0.4", "-o", out / "mesh.vtu", "-o", out / "mesh.stl"},
+                                     {.signals = signals, .signal_after = "surface"});
+  EXPECT_EQ(outcome.code, 130) << outcome.err;
+  EXPECT_NE(outcome.err.find("cancelled by " + by), std::string::npos) << outcome.err;
+  EXPECT_TRUE(out.names().empty());
+}
+
+TEST(CliCancel, ASignalWhileMeshingExitsWith130SaysWhoSentItAndLeavesNothing) {
+  const std::string us = " from process " + std::to_string(::getpid());
+  expect_cancelled({SIGINT}, "SIGINT" + us);
+  expect_cancelled({SIGTERM}, "SIGTERM" + us);
+}
+
+// As timeout(1) does, which signals its child and then the group.
+TEST(CliCancel, TwoSignalsAtOnceAreOneRequest) {
+  expect_cancelled({SIGTERM, SIGINT, SIGHUP}, "");
 }
 
 TEST(CliCancel, ALimitExitsWith5AndWritesAMarkedMesh) {

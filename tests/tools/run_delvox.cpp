@@ -53,10 +53,10 @@ struct Pipe {
   ::_exit(127);
 }
 
-// Reads both pipes to their ends; sends the signal once stderr holds what it waits for.
+// Reads both pipes to their ends; sends the signals once stderr holds what it waits for.
 void collect(pid_t child, const RunSetup& setup, int out, int err, Outcome& outcome) {
   pollfd ends[2] = {{out, POLLIN, 0}, {err, POLLIN, 0}};
-  bool signalled = setup.signal == 0;
+  bool signalled = setup.signals.empty();
   while (ends[0].fd >= 0 || ends[1].fd >= 0) {
     ::poll(ends, 2, -1);
     for (int i = 0; i < 2; ++i) {
@@ -70,7 +70,7 @@ void collect(pid_t child, const RunSetup& setup, int out, int err, Outcome& outc
       }
     }
     if (!signalled && outcome.err.find(setup.signal_after) != std::string::npos) {
-      ::kill(child, setup.signal);
+      for (int signal : setup.signals) ::kill(child, signal);
       signalled = true;
     }
   }

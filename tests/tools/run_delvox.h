@@ -18,7 +18,7 @@ struct RunSetup {
   std::filesystem::path folder = ".";   ///< where it runs
   std::size_t file_size_limit = 0;      ///< bytes, as ulimit -f; 0: none
   std::string stdout_path = {};              ///< instead of being captured
-  int signal = 0;                       ///< sent once its stderr contains `signal_after`
+  std::vector<int> signals = {};        ///< sent once its stderr contains `signal_after`
   std::string signal_after = {};
 };
 
