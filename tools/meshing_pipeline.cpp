@@ -25,7 +25,7 @@
 namespace delvox::tools {
 namespace {
 
-constexpr double kMinBallRadiusVoxels = 0.001;
+constexpr double kMinBallRadiusVoxels = 0.001, kThinBallRadiusVoxels = 0.25;
 
 /// Whether an isovalue takes passes over the samples: all but a number do.
 bool needs_samples(const std::string& iso) {
@@ -59,7 +59,7 @@ class MeshingRun {
   void search_size();
   void mesh_at(const SizeField& size);
   Mesh run_mesher(const Oracle& oracle, const SizeField& size);
-  double min_ball_radius() const;
+  double smallest_spacing() const;
   double meshing_seconds() const;
   void check();
   void write();
@@ -122,9 +122,9 @@ void MeshingRun::decide() {
   }
 }
 
-double MeshingRun::min_ball_radius() const {
+double MeshingRun::smallest_spacing() const {
   const Vector3 spacing = volume_->header().spacing();
-  return options_.min_ball_radius.value_or(kMinBallRadiusVoxels * std::min({spacing.x, spacing.y, spacing.z}));
+  return std::min({spacing.x, spacing.y, spacing.z});
 }
 
 // One run of the book's algorithm.
@@ -133,7 +133,8 @@ Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
   surface.size = size;
   surface.min_angle_degrees = options_.min_angle_degrees;
   surface.max_deviation = options_.max_deviation.value_or(std::numeric_limits<double>::infinity());
-  surface.min_ball_radius = min_ball_radius();
+  surface.min_ball_radius = options_.min_ball_radius.value_or(kMinBallRadiusVoxels * smallest_spacing());
+  surface.thin_ball_radius = kThinBallRadiusVoxels * smallest_spacing();
   RunControl control;
   control.limits = options_.limits;
   if (control.limits.max_seconds > 0) {  // what earlier runs of --tets have left of it

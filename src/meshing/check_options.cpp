@@ -15,6 +15,7 @@ void check_criteria(const SurfaceCriteria& criteria) {
   }
   if (!(criteria.max_deviation > 0)) throw OptionError("max-deviation must be positive");
   if (!(criteria.min_ball_radius >= 0)) throw OptionError("the smallest ball radius must not be negative");
+  if (!(criteria.thin_ball_radius >= 0)) throw OptionError("the thin ball radius must not be negative");
 }
 
 void check_criteria(const TetCriteria& criteria) {

@@ -20,7 +20,7 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
     budget.begin_stage("surface");
     refinement.refine_surface();  // step 2, Quality
     budget.begin_stage("topology");
-  } while (refinement.repair_topology() || refinement.repair_landmarks());  // step 3
+  } while (refinement.repair());  // step 3
   budget.end_stage();
 
   refinement.report_unmet();

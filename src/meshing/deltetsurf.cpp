@@ -21,7 +21,7 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
   refinement.insert_seeds();  // step 1
   const auto repair_topology = [&] {
     budget.begin_stage("topology");
-    return refinement.repair_topology() || refinement.repair_landmarks();  // step 5
+    return refinement.repair();  // step 5
   };
   do {
     budget.begin_stage("surface");

@@ -11,6 +11,7 @@
 #include "meshing/deep_lattice.h"
 #include "meshing/landmark_watch.h"
 #include "meshing/pieces.h"
+#include "meshing/repair_effort.h"
 #include "meshing/run_budget.h"
 
 namespace delvox {
@@ -30,6 +31,8 @@ class Refinement {
   /// Steps 2 and 3 of DelTetSurf with Quality and the deviation bound: removes interior vertices from the surface, then
   /// splits restricted triangles that are too large or too skinny, until none is left.
   void refine_surface();
+  /// Step 5, then landmarks; neither once step 5 has turned out to be hopeless. True if anything was inserted.
+  bool repair() { return !effort_.hopeless() && (repair_topology() || repair_landmarks()); }
   /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
   bool repair_topology();
 
@@ -128,6 +131,7 @@ class Refinement {
   std::vector<LandmarkPlace> landmark_places_;
   CellId last_located_ = RestrictedDelaunay::kBeyond;
   bool pieces_changed_ = true;
+  RepairEffort effort_;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
   Point3 deviant_place_, stuck_place_, lost_place_;

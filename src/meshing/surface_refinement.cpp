@@ -11,7 +11,12 @@ namespace delvox {
 
 Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, const RunControl& control,
                        RunReport& report)
-    : oracle_(oracle), surface_(surface), report_(report), budget_(control, report), delaunay_(oracle) {}
+    : oracle_(oracle),
+      surface_(surface),
+      report_(report),
+      budget_(control, report),
+      delaunay_(oracle),
+      effort_(surface.thin_ball_radius) {}
 
 void Refinement::insert_seeds() {
   // Cancelling ends it; a limit does not: fewer seeds would leave components without any.
@@ -161,6 +166,7 @@ bool Refinement::repair_umbrella(VertexId vertex) {
     unrepaired_.push_back(vertex);
     return false;
   }
+  effort_.add(std::sqrt(largest.squared_radius), vertex_count());
   if (!insert_surface_point(largest.center, facet.cell)) return false;
   ++report_.topology_insertions;
   return true;
@@ -173,6 +179,7 @@ void Refinement::report_unmet() {
   };
   std::size_t broken = 0;
   Point3 where;
+  if (effort_.hopeless()) unrepaired_.insert(unrepaired_.end(), dirty_.begin(), dirty_.end());
   std::sort(unrepaired_.begin(), unrepaired_.end());
   unrepaired_.erase(std::unique(unrepaired_.begin(), unrepaired_.end()), unrepaired_.end());
   for (VertexId vertex : unrepaired_) {
@@ -180,7 +187,11 @@ void Refinement::report_unmet() {
     ++broken;
     where = delaunay_.point(vertex);
   }
-  tell("topology", broken, where, "the triangles at a vertex form no disk at the smallest ball radius", true);
+  tell("topology", broken, where,
+       effort_.hopeless()
+           ? "the triangles at a vertex form no disk, and the smaller the balls, the more of them it takes"
+           : "the triangles at a vertex form no disk at the smallest ball radius",
+       true);
   tell("deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false);
   tell("landmark", lost_landmarks_, lost_place_, "a neck, gap or speck of the voxels is below the smallest ball radius",
        false);

@@ -13,7 +13,9 @@ BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const Bench
   DelTetSurfOptions options;
   options.surface.size = criteria.size;
   options.surface.min_angle_degrees = criteria.angle_degrees;
-  options.surface.min_ball_radius = 0.001 * std::min({spacing.x, spacing.y, spacing.z});  // the program's default
+  const double voxel = std::min({spacing.x, spacing.y, spacing.z});
+  options.surface.min_ball_radius = 0.001 * voxel;  // the program's defaults
+  options.surface.thin_ball_radius = 0.25 * voxel;
   options.tets.cell_size = criteria.cell_size;
   options.tets.radius_edge = criteria.radius_edge;
 

@@ -26,7 +26,10 @@ std::vector<std::function<void(SurfaceCriteria&)>> bad_surface_criteria() {
   for (double value : {31.0, 30.001, -0.001, kNan}) {
     bad.push_back([=](SurfaceCriteria& c) { c.min_angle_degrees = value; });
   }
-  for (double value : {-0.1, kNan}) bad.push_back([=](SurfaceCriteria& c) { c.min_ball_radius = value; });
+  for (double value : {-0.1, kNan}) {
+    bad.push_back([=](SurfaceCriteria& c) { c.min_ball_radius = value; });
+    bad.push_back([=](SurfaceCriteria& c) { c.thin_ball_radius = value; });
+  }
   return bad;
 }
 

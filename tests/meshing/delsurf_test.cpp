@@ -130,6 +130,23 @@ TEST(DelSurf, TellsOfTiesThatItCouldNotMeshAsAManifold) {
   EXPECT_GT(not_manifold, 0);  // else this tests nothing
 }
 
+// Rods of 1e-7 voxel: each halving of the balls along them takes twice as many, down to ten million per voxel.
+TEST(DelSurf, GivesUpWhereTiesWouldTakeEverSmallerTriangles) {
+  const auto oracle = test::voxel_phantom_oracle("random", test::cubic_image(16));
+  DelSurfOptions options;
+  options.surface.size = 1.5;
+  options.surface.thin_ball_radius = 0.25;
+  options.control.limits.max_vertices = 60000;
+  RunReport report;
+  const SurfaceMesh mesh = delsurf(*oracle, options, report);
+  EXPECT_EQ(report.stop, StopReason::kFinished);
+  test::expect_good_triangles(mesh, 1.5);
+  ASSERT_FALSE(report.unmet.empty());
+  EXPECT_EQ(report.unmet[0].criterion, "topology");
+  EXPECT_TRUE(report.unmet[0].breaks_promise);
+  EXPECT_FALSE(mesh.info.complete);
+}
+
 // Samples of a symmetric volume that lie on the surface itself are landmarks that no mesh can have on one side: without
 // a smallest ball such a run once never ended.
 TEST(DelSurf, EndsWithoutASmallestBallWhereGridPointsLieOnTheSurface) {

@@ -12,6 +12,7 @@ struct SurfaceCriteria {
   double min_angle_degrees = 30;     ///< 0 to 30; 30 is radius-edge 1, the Quality step of DelSurf
   double max_deviation = std::numeric_limits<double>::infinity();  ///< circumcentre to surface ball centre
   double min_ball_radius = 0;        ///< TopoDisk and deviation leave balls at or below this radius alone
+  double thin_ball_radius = 0;       ///< TopoDisk gives up once balls below it multiply as they halve; 0: never
   bool topo_disk = true;             ///< false: skip step 3 of DelSurf; the surface need not be manifold
 };
 
