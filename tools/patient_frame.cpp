@@ -25,7 +25,7 @@ std::string joined(const std::vector<std::string>& pieces) {
 void add_frame_option(CLI::App& app, std::string& frame) {
   app.add_option("--frame", frame,
                  "Patient frame of what is written, and of points given by flags: ras or lps (default: the volume's "
-                 "own; one that states none is taken to be in this)")
+                 "own; one that states none is taken to be in this). 3D Slicer takes a .vtu for lps")
       ->check(CLI::IsMember({"ras", "lps"}))
       ->type_name("FRAME");
 }

@@ -135,6 +135,7 @@ void add_cells(const MeshView& mesh, VtuBody& body) {
   body.close("Cells");
 }
 
+/// 3D Slicer would take the frame from a string array SPACE among the fields, but meshio reads no file with strings.
 void write_head(const MeshView& mesh, Out& out) {
   const char* order = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
   out.put("<?xml version=\"1.0\"?>\n<!-- ", header_comment(mesh.info), " -->\n");

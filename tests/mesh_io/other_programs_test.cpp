@@ -53,6 +53,22 @@ out.close()
   EXPECT_EQ(result, one + one);
 }
 
+// 3D Slicer looks for SPACE=RAS and SPACE=LPS in these, by these readers.
+TEST_F(Vtk, FindsTheFrameInTheHeaders) {
+  for (const char* name : {"a.vtk", "a.stl", "a.ply", "a.obj"}) write_mesh(awkward_surface(), folder_ / name);
+  const std::string result = run(R"(
+for reader, name in ((vtk.vtkPolyDataReader(), 'a.vtk'), (vtk.vtkSTLReader(), 'a.stl'), (vtk.vtkPLYReader(), 'a.ply'),
+                     (vtk.vtkOBJReader(), 'a.obj')):
+    reader.SetFileName(name)
+    reader.Update()
+    header = (reader.GetComment() if name == 'a.obj' else reader.GetHeader() if name != 'a.ply' else
+              ''.join(reader.GetComments().GetValue(i) for i in range(reader.GetComments().GetNumberOfValues())))
+    out.write('%s %d;' % (name, 'SPACE=RAS' in header))
+out.close()
+)");
+  EXPECT_EQ(result, "a.vtk 1;a.stl 1;a.ply 1;a.obj 1;");
+}
+
 TEST_F(Vtk, OpensSurfaces) {
   for (const char* name : {"a.vtu", "a.vtk", "a.stl", "a.ply", "a.obj"}) write_mesh(awkward_surface(), folder_ / name);
   const std::string result = run(R"(
