@@ -38,7 +38,7 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
       ->check(finite_number(Zero::kExcluded))
       ->type_name("MM");
   app.add_option("--min-ball-radius", options.min_ball_radius,
-                 "Topology and deviation leave surface balls this small alone, mm (default: 0.001 voxel)")
+                 "Topology and deviation leave surface balls this small alone, mm (default: 0.0001 voxel)")
       ->check(finite_number(Zero::kAllowed))
       ->type_name("MM");
 }

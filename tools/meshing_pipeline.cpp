@@ -25,7 +25,7 @@
 namespace delvox::tools {
 namespace {
 
-constexpr double kMinBallRadiusVoxels = 0.001, kThinBallRadiusVoxels = 0.25;
+constexpr double kMinBallRadiusVoxels = 0.0001, kThinBallRadiusVoxels = 0.25;
 
 /// Whether an isovalue takes passes over the samples: all but a number do.
 bool needs_samples(const std::string& iso) {

@@ -16,7 +16,7 @@ bool Refinement::repair_landmarks() {
     if (!budget_left()) return inserted;
     inserted |= repair_landmark(landmark);
   }
-  return inserted || repair_links() || repair_pieces();
+  return inserted || repair_links() || repair_pieces() || repair_voronoi_edges() || look_closer();
 }
 
 /// The cell that holds a landmark, looked for only if the one known is gone.
@@ -54,8 +54,8 @@ std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId
 
 bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
   // A landmark that lies on the surface itself, as ties and symmetric volumes have them, asks for points ever nearer to
-  // it: even without a smallest ball that must end.
-  const double smallest = std::max(surface_.min_ball_radius, 1e-7 * oracle_.bounds().diagonal());
+  // it.
+  const double smallest = surface_.min_ball_radius;
   const Star& star = evaluate(p, hint);
   bool too_near = star.duplicate;
   for (const Star::Tet& tet : star.tets) {
@@ -78,6 +78,10 @@ bool Refinement::repair_links() {
     const auto place = misplaced_on_link(watch_.point(a), cell_a, watch_.point(b), cell_b);
     if (place) misplaced.push_back(*place);
   }
+  return insert_where_misplaced(misplaced);
+}
+
+bool Refinement::insert_where_misplaced(const std::vector<MisplacedCell>& misplaced) {
   bool inserted = false;
   for (const MisplacedCell& place : misplaced) {
     if (delaunay_.alive(place.cell, place.stamp)) inserted |= insert_for_landmark(place.crossing, place.cell);

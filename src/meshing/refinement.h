@@ -36,9 +36,11 @@ class Refinement {
   /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
   bool repair_topology();
 
-  /// One insertion for each landmark of the oracle that lies on the wrong side of the mesh; if there is none, for each
-  /// link that does not stay on its side; if there is none, for each piece without a landmark. True if anything was
-  /// inserted. Not in the book: trilinear surfaces have necks and gaps of any width, which no size field foresees.
+  /// For meshes fine enough that the oracle has landmarks: one insertion for each landmark on the wrong side of the
+  /// mesh; if there is none, for each link that does not stay on its side; if there is none, for each piece without a
+  /// landmark; if there is none, for each Voronoi edge that makes an excursion to the other side. True if anything was
+  /// inserted. All but the last is not in the book: trilinear surfaces have necks and gaps of any width, which no size
+  /// field foresees.
   bool repair_landmarks();
 
   /// Fills the inside with a lattice where a constant bound on circumradii leaves room for one.
@@ -70,7 +72,7 @@ class Refinement {
     std::uint32_t stamp = 0;
     bool lost = false;  ///< on the wrong side, and nothing can be inserted for it
   };
-  /// A cell whose label is not that of the link through it, and a crossing inside its sphere.
+  /// A cell that must go, and a crossing inside its sphere to insert for it.
   struct MisplacedCell {
     Point3 crossing;
     CellId cell;
@@ -93,6 +95,7 @@ class Refinement {
   std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell) const;
   bool insert_for_landmark(const Point3& p, CellId hint);
   bool repair_links();
+  bool insert_where_misplaced(const std::vector<MisplacedCell>& misplaced);
   bool repair_pieces();
   std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell, const Point3& b, CellId last) const;
   std::vector<SurfaceBall> largest_balls(const Pieces& pieces, const std::vector<bool>& real) const;
@@ -101,6 +104,12 @@ class Refinement {
   void note_new_facets();
   std::size_t vertex_count() const { return delaunay_.vertex_count() + (deep_ ? deep_->points.size() : 0); }
   bool budget_left() { return budget_.go_on(vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
+
+  // Voronoi edges (voronoi_edges.cpp)
+  bool repair_voronoi_edges();
+  bool look_closer();
+  SurfaceTopology topology() const;
+  std::optional<Point3> crossing_of_excursion(FacetId facet) const;
 
   // Lattice (lattice_filling.cpp)
   const Star& evaluate(const Point3& p, CellId hint);
@@ -115,7 +124,7 @@ class Refinement {
   bool find_new_ball(const Star& star, SurfaceBall& largest) const;
 
   const Oracle& oracle_;
-  const SurfaceCriteria& surface_;
+  SurfaceCriteria surface_;
   const TetCriteria* tet_criteria_ = nullptr;
   RunReport& report_;
   RunBudget budget_;
@@ -124,13 +133,17 @@ class Refinement {
 
   std::vector<WaitingFacet> facets_;  // first in, first out from next_facet_
   std::size_t next_facet_ = 0;
-  std::vector<WaitingTet> tets_;      // last in, first out
+  std::vector<WaitingTet> tets_;  // last in, first out
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
   LandmarkWatch watch_;
   std::vector<LandmarkPlace> landmark_places_;
   CellId last_located_ = RestrictedDelaunay::kBeyond;
   bool pieces_changed_ = true;
+  std::uint32_t next_stamp_after_edges_ = 0;
+  double shortest_excursion_ = 0.1;  // of Voronoi edges that the mesh takes notice of, in sizes
+  std::optional<SurfaceTopology> expected_topology_;
+  std::size_t vertices_at_first_look_ = 0;
   RepairEffort effort_;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;

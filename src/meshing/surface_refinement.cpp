@@ -16,7 +16,11 @@ Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, con
       report_(report),
       budget_(control, report),
       delaunay_(oracle),
-      effort_(surface.thin_ball_radius) {}
+      effort_(surface.thin_ball_radius) {
+  // Balls that are mere rounding errors of the oracle's points would be split without end.
+  constexpr double kRoundingError = 1e-7;
+  surface_.min_ball_radius = std::max(surface_.min_ball_radius, kRoundingError * oracle.bounds().diagonal());
+}
 
 void Refinement::insert_seeds() {
   // Cancelling ends it; a limit does not: fewer seeds would leave components without any.
@@ -193,6 +197,10 @@ void Refinement::report_unmet() {
            : "the triangles at a vertex form no disk at the smallest ball radius",
        true);
   tell("deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false);
+  if (expected_topology_ && broken == 0 && topology() != *expected_topology_) {
+    tell("topology", 1, delaunay_.point(Delaunay3::kCorners),
+         "components or Euler number differ from the voxels': some neck or gap is too thin to be found", false);
+  }
   tell("landmark", lost_landmarks_, lost_place_, "a neck, gap or speck of the voxels is below the smallest ball radius",
        false);
   tell("refinement", stuck_, stuck_place_, "a new point coincides with a vertex", true);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "delvox/core/errors.h"
+#include "delvox/volume/voxel_topology.h"
 #include "oracle/bracketed_root.h"
 #include "oracle/brick_field.h"
 #include "oracle/voxel_landmarks.h"
@@ -14,8 +15,13 @@ namespace {
 
 class IsosurfaceOracle final : public SmoothOracle {
  public:
-  IsosurfaceOracle(std::shared_ptr<const BrickField> field, const Affine3& grid_to_world)
-      : field_(std::move(field)), to_world_(grid_to_world), to_grid_(grid_to_world.inverse()) {
+  IsosurfaceOracle(Volume volume, const Isosurface& surface, std::shared_ptr<const BrickField> field,
+                   const Affine3& grid_to_world)
+      : volume_(std::move(volume)),
+        surface_(surface),
+        field_(std::move(field)),
+        to_world_(grid_to_world),
+        to_grid_(grid_to_world.inverse()) {
     const auto& n = field_->size();
     for (int corner = 0; corner < 8; ++corner) {
       bounds_.extend(to_world_({corner & 1 ? n[0] - 1.0 : 0.0, corner & 2 ? n[1] - 1.0 : 0.0,
@@ -56,6 +62,11 @@ class IsosurfaceOracle final : public SmoothOracle {
 
   Landmarks landmarks(const SizeField& size, const GoOn& go_on) const override;
 
+  std::optional<SurfaceTopology> topology() const override {
+    const VoxelTopology counted = count_topology(volume_, surface_);
+    return SurfaceTopology{counted.surface_components, counted.euler};
+  }
+
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<IsosurfaceOracle>(*this); }
 
  private:
@@ -65,6 +76,8 @@ class IsosurfaceOracle final : public SmoothOracle {
   void crossings_in_cell(const Point3& a, const Vector3& ab, double t0, double t1, double& value_at_t0,
                          std::vector<Point3>& out) const;
 
+  Volume volume_;
+  Isosurface surface_;
   std::shared_ptr<const BrickField> field_;
   Affine3 to_world_, to_grid_;
   Box3 bounds_;
@@ -129,8 +142,11 @@ void IsosurfaceOracle::crossings_in_cell(const Point3& a, const Vector3& ab, dou
                                          std::vector<Point3>& out) const {
   const std::array<int, 3> cell = field_->cell_of(a + (0.5 * (t0 + t1)) * ab);
   const BrickField::CellSamples samples = field_->cell_samples(cell);
-  if (!samples.mixed_brick) {
-    value_at_t0 = samples.inside ? 1 : -1;
+  const auto inside = [this](float sample) { return sample > field_->level(); };
+  const bool first_inside = samples.mixed_brick ? inside(samples.value[0]) : samples.inside;
+  const auto& s = samples.value;
+  if (!samples.mixed_brick || std::all_of(s.begin(), s.end(), [&](float v) { return inside(v) == first_inside; })) {
+    value_at_t0 = first_inside ? 1 : -1;
     return;
   }
   const auto value = [&](double t) {
@@ -140,6 +156,12 @@ void IsosurfaceOracle::crossings_in_cell(const Point3& a, const Vector3& ab, dou
   // Cubic through four equidistant values; s runs from 0 to 1 over the cell.
   const double dt = t1 - t0;
   const double f0 = value(t0), f1 = value(t0 + dt / 3), f2 = value(t0 + 2 * dt / 3), f3 = value(t1);
+  // Its Bezier ordinates enclose it: of one sign, they leave no root.
+  const double b1 = (-5 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 6, b2 = (2 * f0 - 9 * f1 + 18 * f2 - 5 * f3) / 6;
+  if (std::max({f0, b1, b2, f3, value_at_t0}) < 0 || std::min({f0, b1, b2, f3, value_at_t0}) > 0) {
+    value_at_t0 = f3;
+    return;
+  }
   const double c1 = (-11 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 2, c2 = (18 * f0 - 45 * f1 + 36 * f2 - 9 * f3) / 2;
   const double c3 = (-9 * f0 + 27 * f1 - 27 * f2 + 9 * f3) / 2;
   std::vector<double> stops{t0};
@@ -170,15 +192,23 @@ std::vector<Point3> IsosurfaceOracle::intersect_all(const Point3& world_a, const
   Point3 a = to_grid_(world_a), b = to_grid_(world_b);
   if (!clip(a, b)) return result;
   const Vector3 ab = b - a;
-  std::vector<double> stops{0, 1};
+  // From cell to cell: along each axis the next plane of samples, and when the segment is there.
+  std::array<double, 3> plane, reached;
+  const auto reach = [&](int axis) { reached[axis] = ab[axis] == 0 ? 2 : (plane[axis] - a[axis]) / ab[axis]; };
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = std::min(a[axis], b[axis]), high = std::max(a[axis], b[axis]);
-    for (double plane = std::floor(low) + 1; plane < high; ++plane) stops.push_back((plane - a[axis]) / ab[axis]);
+    plane[axis] = ab[axis] > 0 ? std::floor(a[axis]) + 1 : std::ceil(a[axis]) - 1;
+    reach(axis);
   }
-  std::sort(stops.begin(), stops.end());
   double value = field_->value(a);
-  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-    if (stops[i] < stops[i + 1]) crossings_in_cell(a, ab, stops[i], stops[i + 1], value, result);
+  for (double t0 = 0; t0 < 1;) {
+    const double t1 = std::min({reached[0], reached[1], reached[2], 1.0});
+    if (t0 < t1) crossings_in_cell(a, ab, t0, t1, value, result);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (reached[axis] > t1) continue;
+      plane[axis] += ab[axis] > 0 ? 1 : -1;
+      reach(axis);
+    }
+    t0 = t1;
   }
   return result;
 }
@@ -197,7 +227,8 @@ std::unique_ptr<SmoothOracle> make_isosurface_oracle(const Volume& volume, const
   auto field = std::make_shared<const BrickField>(volume, level_set);
   Affine3 padding;  // grid coordinates start one sample before the image
   for (int axis = 0; axis < 3; ++axis) padding.rows[axis][3] = -1;
-  return std::make_unique<IsosurfaceOracle>(std::move(field), compose(volume.header().index_to_world, padding));
+  return std::make_unique<IsosurfaceOracle>(volume, surface, std::move(field),
+                                            compose(volume.header().index_to_world, padding));
 }
 
 }  // namespace delvox

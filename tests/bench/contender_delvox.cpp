@@ -14,7 +14,7 @@ BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const Bench
   options.surface.size = criteria.size;
   options.surface.min_angle_degrees = criteria.angle_degrees;
   const double voxel = std::min({spacing.x, spacing.y, spacing.z});
-  options.surface.min_ball_radius = 0.001 * voxel;  // the program's defaults
+  options.surface.min_ball_radius = 0.0001 * voxel;  // the program's defaults
   options.surface.thin_ball_radius = 0.25 * voxel;
   options.tets.cell_size = criteria.cell_size;
   options.tets.radius_edge = criteria.radius_edge;

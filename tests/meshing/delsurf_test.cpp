@@ -185,5 +185,44 @@ TEST(DelSurf, WithoutTopoDiskItSkipsTheTopologyStep) {
   EXPECT_FALSE(mesh.triangles.empty());
 }
 
+/// A ball that is said to be a torus.
+class MiscountedBall final : public Oracle {
+ public:
+  MiscountedBall()
+      : ball_(make_isosurface_oracle(make_phantom("sphere", test::cubic_image(14)),
+                                     {phantom_truth("sphere", test::cubic_image(14)).isovalue, false})) {}
+  Box3 bounds() const override { return ball_->bounds(); }
+  Label label(const Point3& p) const override { return ball_->label(p); }
+  Point3 intersect(const Point3& a, const Point3& b) const override { return ball_->intersect(a, b); }
+  std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const override {
+    return ball_->intersect_all(a, b);
+  }
+  Seeds seeds(const SizeField& size, const GoOn& go_on) const override { return ball_->seeds(size, go_on); }
+  Landmarks landmarks(const SizeField& size, const GoOn& go_on) const override {
+    return ball_->landmarks(size, go_on);
+  }
+  std::optional<SurfaceTopology> topology() const override { return SurfaceTopology{1, 0}; }
+  std::unique_ptr<Oracle> clone() const override { return std::make_unique<MiscountedBall>(); }
+
+ private:
+  std::unique_ptr<SmoothOracle> ball_;
+};
+
+TEST(DelSurf, ATopologyThatCannotBeReachedIsToldAndTakesFewVertices) {
+  const MiscountedBall oracle;
+  DelSurfOptions options;
+  options.surface.size = 0.5;
+  RunReport report;
+  const SurfaceMesh mesh = delsurf(oracle, options, report);
+  test::expect_closed_manifold(mesh);
+  ASSERT_EQ(report.unmet.size(), 1u);
+  EXPECT_EQ(report.unmet[0].criterion, "topology");
+  EXPECT_TRUE(report.succeeded());
+  options.surface.size = 1;  // too coarse to be asked for
+  const SurfaceMesh coarse = delsurf(oracle, options, report);
+  EXPECT_TRUE(report.unmet.empty());
+  EXPECT_LT(mesh.points.size(), 8 * coarse.points.size());
+}
+
 }  // namespace
 }  // namespace delvox

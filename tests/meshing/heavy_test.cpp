@@ -89,10 +89,25 @@ TEST(Heavy, NoiseAtHalfAVoxelHasTheTopologyOfItsVoxels) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) expect_topology_of_noise(20, seed);
 }
 
-// One handle too many or too few among hundreds, for seed 2: landmarks are sampled every quarter of a link, and links
-// are tested for joining pieces only, so that a thin neck between pieces joined elsewhere can go unnoticed.
-TEST(Heavy, DISABLED_LargerNoiseAtHalfAVoxelHasTheTopologyOfItsVoxels) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) expect_topology_of_noise(32, seed);
+TEST(Heavy, LargerNoiseAtHalfAVoxelHasTheTopologyOfItsVoxels) {
+  for (std::uint64_t seed : {1, 3, 4, 5, 6}) expect_topology_of_noise(32, seed);
+}
+
+TEST(Heavy, TopologyThatIsMissedIsTold) {
+  PhantomOptions image = test::with_noise(test::cubic_image(32), 1);
+  image.seed = 2;  // one of its samples is within 2e-5 of the level: a neck as thin
+  const Volume volume = make_phantom("noisy-sphere", image);
+  const Isosurface surface{0, false};
+  DelSurfOptions options;
+  options.surface.size = 0.5;
+  options.surface.min_ball_radius = 1e-4;
+  RunReport report;
+  const SurfaceMesh mesh = delsurf(*make_isosurface_oracle(volume, surface), options, report);
+  const test::SurfaceTopology found = test::topology_of(mesh);
+  const VoxelTopology voxels = count_topology(volume, surface);
+  const bool told = std::any_of(report.unmet.begin(), report.unmet.end(),
+                                [](const Unmet& unmet) { return unmet.criterion == "topology"; });
+  EXPECT_EQ(told, found.components != voxels.surface_components || found.euler != voxels.euler);
 }
 
 TEST(Heavy, RandomIntegersAtHalfAVoxelHaveTheTopologyOfTheirVoxels) {

@@ -36,19 +36,6 @@ TEST_P(ScanBars, CropsAtHalfAVoxelHaveTheTopologyOfTheVoxels) {
   expect_topology_of_the_voxels(GetParam(), volume, folder);
 }
 
-// One handle too many in either, where no link of the landmarks' skeleton passes; `check --same-topology` sees it.
-TEST(ScanTopology, DISABLED_EveryThinNeckOfACropIsThatOfTheVoxels) {
-  const Scan crops[] = {
-      {"spm152", "spm152.nii.gz", {"--iso", "40"}, {}, {"60:124,100:164,80:144"}, 0.3687},
-      {"Iguana", "Iguana.nii.gz", {"--iso", "119.3"}, {}, {"70:134,90:154,70:134"}, 0.0509}};
-  for (const Scan& scan : crops) {
-    TemporaryFolder folder;
-    const std::string volume = find_scan(scan.file);
-    if (volume.empty()) GTEST_SKIP() << "skipped: no scans";
-    expect_topology_of_the_voxels(scan, volume, folder);
-  }
-}
-
 const std::vector<Scan> kSamplesAtSize = {
     {"skull", "skull_2.9.inr", {"--iso", "2.9"}, {{2.63, 300'000}, {1.765, 1'000'000}},
      {"16:48,16:48,16:48", "0:64,0:64,0:64"}, 1.82},
@@ -56,22 +43,24 @@ const std::vector<Scan> kSamplesAtSize = {
      {"200:248,120:168,80:128", "150:214,150:214,60:124"}, 0.308}};
 
 // Isovalues as `delvox info` suggests them, or near: none is a sample's own value. At one that is (the Iguana's 80 and
-// 120), ties make specks as thin as a float step, and a run may end with 5. Midway between integers samples do not tie,
-// but saddles of faces may, so that two sheets touch in a point: hence 119.3, not 119.5, where topology is counted. The
+// 120), ties make specks as thin as a float step, and a run may end with 5. Midway between integers saddles of faces may
+// tie, so that two sheets touch in a point, and the trilinear surface is no manifold: hence 119.3, not 119.5. The
 // Iguana's bone is a thousand surfaces, which take more than 100 k tets at any size: its skin has the smallest mesh.
 const std::vector<Scan> kScans = {
     {"spm152", "spm152.nii.gz", {"--iso", "40"}, {{5.59, 50'000}, {2.92, 300'000}, {1.92, 1'000'000}},
-     {"80:112,100:132,80:112", "100:132,60:92,100:132", "60:108,120:168,100:148", "30:94,100:164,60:124"}, 0.3687},
-    {"CT_pitch_bone", "CT_pitch.nii.gz", {"--iso", "175.5"}, {{3.23, 50'000}, {1.66, 300'000}, {1.095, 1'000'000}},
-     {"60:92,200:232,20:52", "110:158,60:108,6:54"}, 0.406},
-    {"CT_pitch_skin", "CT_pitch.nii.gz", {"--iso", "35.5"}, {{4.71, 50'000}, {2.62, 300'000}, {1.65, 1'000'000}},
+     {"80:112,100:132,80:112", "100:132,60:92,100:132", "60:108,120:168,100:148", "30:94,100:164,60:124",
+      "60:124,100:164,80:144"}, 0.3687},
+    {"CT_pitch_bone", "CT_pitch.nii.gz", {"--iso", "175.503"}, {{3.23, 50'000}, {1.66, 300'000}, {1.095, 1'000'000}},
+     {"60:92,200:232,20:52", "110:158,60:108,6:54", "60:108,180:228,6:54", "117:168,190:241,13:55"}, 0.406},
+    {"CT_pitch_skin", "CT_pitch.nii.gz", {"--iso", "35.503"}, {{4.71, 50'000}, {2.62, 300'000}, {1.65, 1'000'000}},
      {"20:52,100:132,10:42", "20:68,90:138,6:54"}, 0.406},
     {"CT_AVM", "CT_AVM.nii.gz", {"--iso", "180"}, {{1.756, 50'000}, {0.93, 300'000}, {0.62, 1'000'000}},
-     {"110:158,110:158,60:108", "90:154,90:154,60:124"}, 0.3599},
+     {"110:158,110:158,60:108", "90:154,90:154,60:124", "20:68,60:108,60:108"}, 0.3599},
     {"Iguana_skin", "Iguana.nii.gz", {"--iso", "43.5"}, {{0.71, 50'000}, {0.38, 300'000}, {0.25, 1'000'000}},
      {"90:138,60:108,70:118", "70:134,90:154,70:134"}, 0.0509},
     {"Iguana_bone", "Iguana.nii.gz", {"--iso", "119.3"}, {{0.205, 300'000}, {0.12, 1'000'000}},
-     {"80:112,100:132,80:112", "90:138,160:208,70:118", "90:138,60:108,70:118"}, 0.0509}};
+     {"80:112,100:132,80:112", "90:138,160:208,70:118", "90:138,60:108,70:118", "70:134,90:154,70:134",
+      "75:131,127:191,83:116"}, 0.0509}};
 
 INSTANTIATE_TEST_SUITE_P(Debian, LargeSampleBars, testing::ValuesIn(kSamplesAtSize), testing::PrintToStringParamName());
 INSTANTIATE_TEST_SUITE_P(Scans, ScanBars, testing::ValuesIn(kScans), testing::PrintToStringParamName());

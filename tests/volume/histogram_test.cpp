@@ -60,11 +60,15 @@ double within_variance(const std::vector<float>& samples, const std::vector<doub
 }
 
 /// Midpoints between neighbouring distinct values.
+constexpr double kMidway = 0.5027864;  // where thresholds lie between samples
+
 std::vector<double> gaps(std::vector<float> samples) {
   std::sort(samples.begin(), samples.end());
   samples.erase(std::unique(samples.begin(), samples.end()), samples.end());
   std::vector<double> result;
-  for (std::size_t i = 1; i < samples.size(); ++i) result.push_back(0.5 * (samples[i - 1] + double{samples[i]}));
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    result.push_back(samples[i - 1] + kMidway * (double{samples[i]} - samples[i - 1]));
+  }
   return result;
 }
 
@@ -128,7 +132,9 @@ TEST(Otsu, EqualsBruteForceOnBimodalIntegers) {
       best_threshold = threshold;
     }
   }
-  EXPECT_EQ(SampleStatistics(samples).otsu_isovalues(2), std::vector<double>{best_threshold});
+  const std::vector<double> found = SampleStatistics(samples).otsu_isovalues(2);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_DOUBLE_EQ(found[0], best_threshold);
 }
 
 TEST(Otsu, EqualsBruteForceForThreeClasses) {
@@ -145,7 +151,9 @@ TEST(Otsu, EqualsBruteForceForThreeClasses) {
       }
     }
   }
-  EXPECT_EQ(SampleStatistics(samples).otsu_isovalues(3), best_thresholds);
+  const std::vector<double> found = SampleStatistics(samples).otsu_isovalues(3);
+  ASSERT_EQ(found.size(), 2u);
+  for (int i : {0, 1}) EXPECT_DOUBLE_EQ(found[i], best_thresholds[i]);
 }
 
 TEST(Otsu, FourClassesBeatEveryNeighbouringChoice) {
@@ -174,14 +182,14 @@ TEST(Otsu, FloatSamplesAreWithinABinOfBruteForce) {
   EXPECT_LE(within_variance(samples, thresholds), best * (1 + 1e-4));
 }
 
-TEST(Otsu, LiesMidwayBetweenLabelsSoThatNothingTies) {
-  EXPECT_EQ(SampleStatistics(std::vector<float>{0, 0, 0, 255, 255}).otsu_isovalues(2), std::vector<double>{127.5});
-  EXPECT_EQ(SampleStatistics(std::vector<float>{3, 3, 4}).otsu_isovalues(2), std::vector<double>{3.5});
-  EXPECT_EQ(SampleStatistics(std::vector<float>{0, 1, 2}).otsu_isovalues(3), (std::vector<double>{0.5, 1.5}));
+TEST(Otsu, LiesAHairAboveMidwaySoThatNeitherSamplesNorSaddlesTie) {
+  EXPECT_EQ(SampleStatistics(std::vector<float>{0, 0, 0, 255, 255}).otsu_isovalues(2), std::vector<double>{255 * kMidway});
+  EXPECT_EQ(SampleStatistics(std::vector<float>{3, 3, 4}).otsu_isovalues(2), std::vector<double>{3 + kMidway});
+  EXPECT_EQ(SampleStatistics(std::vector<float>{0, 1, 2}).otsu_isovalues(3), (std::vector<double>{kMidway, 1 + kMidway}));
   const std::vector<double> thresholds = SampleStatistics(std::vector<float>{0, 0, 0.25f, 0.25f, 1, 1}).otsu_isovalues(3);
   ASSERT_EQ(thresholds.size(), 2u);
-  EXPECT_NEAR(thresholds[0], 0.125, 1e-4);
-  EXPECT_NEAR(thresholds[1], 0.625, 1e-4);
+  EXPECT_NEAR(thresholds[0], 0.25 * kMidway, 1e-4);
+  EXPECT_NEAR(thresholds[1], 0.25 + 0.75 * kMidway, 1e-4);
 }
 
 TEST(Otsu, HasNoAnswerForFewerValuesThanClasses) {
@@ -194,7 +202,7 @@ TEST(Otsu, HasNoAnswerForFewerValuesThanClasses) {
 TEST(Otsu, SurvivesHugeRanges) {
   const std::vector<double> thresholds = SampleStatistics(std::vector<float>{-3e38f, -3e38f, 3e38f, 3e38f}).otsu_isovalues(2);
   ASSERT_EQ(thresholds.size(), 1u);
-  EXPECT_NEAR(thresholds[0], 0, 1e34);
+  EXPECT_NEAR(thresholds[0], 6e38 * kMidway - 3e38, 1e34);
 }
 
 TEST(ChooseIsovalue, TakesANumber) {
@@ -207,10 +215,10 @@ TEST(ChooseIsovalue, TakesANumber) {
 
 TEST(ChooseIsovalue, TakesOtsuAndMultiOtsu) {
   const Volume volume = volume_of({4, 2, 1}, {0, 0, 0, 10, 10, 10, 50, 50});
-  EXPECT_EQ(choose_isovalue(volume, "otsu").value, 30);
-  EXPECT_EQ(choose_isovalue(volume, "otsu3:1").value, 5);
-  EXPECT_EQ(choose_isovalue(volume, "otsu3:2").value, 30);
-  EXPECT_EQ(choose_isovalue(volume, "otsu3:2").sentence, "isovalue 30: Otsu's threshold 2 of 2 (3 classes)");
+  EXPECT_EQ(choose_isovalue(volume, "otsu").value, 10 + 40 * kMidway);
+  EXPECT_EQ(choose_isovalue(volume, "otsu3:1").value, 10 * kMidway);
+  EXPECT_EQ(choose_isovalue(volume, "otsu3:2").value, 10 + 40 * kMidway);
+  EXPECT_EQ(choose_isovalue(volume, "otsu3:2").sentence, "isovalue 30.111456: Otsu's threshold 2 of 2 (3 classes)");
   EXPECT_THROW(choose_isovalue(volume, "otsu4:1"), NothingToMesh);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "delvox/core/geometry.h"
@@ -30,6 +31,13 @@ struct Landmarks {
   std::vector<std::array<std::uint32_t, 2>> links;
 };
 
+/// What a surface is up to deformation, whatever encloses what.
+struct SurfaceTopology {
+  std::size_t components = 0;
+  long euler = 0;
+  friend bool operator==(const SurfaceTopology&, const SurfaceTopology&) = default;
+};
+
 /// What the meshers ask of a domain, whatever it is made of: voxels, formulas, polygon surfaces.
 /// An edge is bipolar if the labels of its two ends differ (book, 14.1.3); labels are constant on each side of the
 /// surface. Queries are const but need not be thread-safe: clone() one oracle per thread.
@@ -53,6 +61,8 @@ class Oracle {
     (void)go_on;
     return {};
   }
+  /// The topology of the whole surface, if the domain can count it.
+  virtual std::optional<SurfaceTopology> topology() const { return std::nullopt; }
   /// An independent oracle of the same domain.
   virtual std::unique_ptr<Oracle> clone() const = 0;
 };
