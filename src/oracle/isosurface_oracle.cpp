@@ -6,6 +6,7 @@
 #include "delvox/core/errors.h"
 #include "oracle/bracketed_root.h"
 #include "oracle/brick_field.h"
+#include "oracle/domain_patches.h"
 #include "oracle/voxel_landmarks.h"
 #include "oracle/voxel_seeds.h"
 
@@ -55,6 +56,10 @@ class IsosurfaceOracle final : public SmoothOracle {
   }
 
   Landmarks landmarks(const SizeField& size, const GoOn& go_on) const override;
+
+  void for_each_patch(const std::function<void(const DomainPatch&)>& visit) const override {
+    visit_patches(*field_, to_world_, visit);
+  }
 
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<IsosurfaceOracle>(*this); }
 
