@@ -29,7 +29,7 @@ constexpr Costs kSurfaceCosts{
     .vertices = {.surface = 0.85},
     .triangles = {.surface = 1.7},
     .tets = {},
-    .seconds = {.surface = 7.4e-6, .thin = 14e-6, .samples = 0.13e-6},
+    .seconds = {.surface = 10e-6, .thin = 14e-6, .samples = 0.13e-6},
     .bytes = {.surface = 730, .samples = 13, .constant = 3.6e6},
 };
 // With an interior lattice, whose deep part is not inserted.
@@ -37,8 +37,7 @@ constexpr Costs kTetCosts{
     .vertices = {.surface = 0.53, .graded = 0.6, .volume = 0.68},
     .triangles = {.surface = 1.72},
     .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.13},
-    .seconds =
-        {.surface = 8.3e-6, .graded = 3.8e-6, .volume = 5.8e-6, .deep = -3e-6, .thin = 15e-6, .samples = 0.15e-6},
+    .seconds = {.surface = 10e-6, .graded = 3.8e-6, .volume = 3.8e-6, .deep = -2e-6, .thin = 15e-6, .samples = 0.15e-6},
     .bytes = {.surface = 580, .graded = 410, .volume = 520, .deep = -285, .samples = 27, .constant = 2e6},
 };
 // Without, where the cell size varies.
@@ -46,7 +45,7 @@ constexpr Costs kVaryingTetCosts{
     .vertices = {.surface = 0.53, .graded = 0.6, .volume = 0.75},
     .triangles = {.surface = 1.72},
     .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.75},
-    .seconds = {.surface = 8.3e-6, .graded = 3.8e-6, .volume = 7.3e-6, .thin = 15e-6, .samples = 0.15e-6},
+    .seconds = {.surface = 10e-6, .graded = 3.8e-6, .volume = 5.3e-6, .thin = 15e-6, .samples = 0.15e-6},
     .bytes = {.surface = 580, .graded = 410, .volume = 780, .samples = 27, .constant = 2e6},
 };
 
