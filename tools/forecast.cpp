@@ -51,7 +51,7 @@ std::string elements(const Forecast& forecast) {
 
 std::string describe(const ProcessForecast& forecast) {
   const double seconds = forecast.mesh.likely.seconds;
-  return "forecast: " + elements(forecast.mesh) + "; " + number(seconds, seconds < 10 ? 1 : 2) + " s, " +
+  return "forecast: " + elements(forecast.mesh) + "; " + (seconds < 100 ? number(seconds, 2) : about(seconds)) + " s, " +
          memory_text(forecast.peak_bytes()) + " of memory in all";
 }
 

@@ -76,10 +76,12 @@ TEST(Limited, TakesTheShareOfTheVertices) {
 TEST(Forecast, IsOneLineThatSaysAtLeastWherePartsAreThin) {
   Estimate least{1234, 800, 5678, 0.25, 10 * kMega}, likely{41234, 80000, 133000, 12.3, 100 * kMega};
   EXPECT_EQ(describe({{least, least}, {20 * kMega, 20 * kMega}}),
-            "forecast: about 1,200 vertices, 5,700 tets; 0.2 s, 30 MB of memory in all");
+            "forecast: about 1,200 vertices, 5,700 tets; 0.25 s, 30 MB of memory in all");
   EXPECT_EQ(describe({{least, likely}, {20 * kMega, 20 * kMega}}),
             "forecast: at least 1,200 vertices, 5,700 tets, about 41,000 vertices, 130,000 tets if parts thinner than "
             "the size are resolved; 12 s, 120 MB of memory in all");
+  likely.seconds = 4321;
+  EXPECT_NE(describe({{likely, likely}, {}}).find("; 4,300 s, 100 MB"), std::string::npos);
   least.tets = 0;
   EXPECT_EQ(elements({least, least}), "about 1,200 vertices, 800 triangles");
 }
