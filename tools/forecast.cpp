@@ -51,8 +51,8 @@ std::string elements(const Forecast& forecast) {
 
 std::string describe(const ProcessForecast& forecast) {
   const double seconds = forecast.mesh.likely.seconds;
-  return "forecast: " + elements(forecast.mesh) + "; " + (seconds < 100 ? number(seconds, 2) : about(seconds)) + " s, " +
-         memory_text(forecast.peak_bytes()) + " of memory in all";
+  return "forecast: " + elements(forecast.mesh) + "; " + (seconds < 100 ? number(seconds, 2) : about(seconds)) +
+         " s, " + memory_text(forecast.peak_bytes()) + " of memory in all";
 }
 
 std::string memory_text(double bytes) {

@@ -144,8 +144,8 @@ SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
 ProcessForecast MeshingRun::forecast_at(const Oracle& oracle, double factor) const {
   const SurfaceCriteria surface = surface_criteria(scaled(size_, factor));
   const TetCriteria tets{options_.radius_edge, scaled(cell_size_.value_or(size_), factor)};
-  const Forecast mesh = options_.kind == MeshKind::kSurface ? forecast_surface(oracle, surface)
-                                                            : forecast_tets(oracle, surface, tets);
+  const Forecast mesh =
+      options_.kind == MeshKind::kSurface ? forecast_surface(oracle, surface) : forecast_tets(oracle, surface, tets);
   return {limited(mesh, options_.limits.max_vertices), process_memory()};
 }
 

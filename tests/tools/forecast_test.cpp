@@ -61,8 +61,8 @@ TEST(FactorThatFits, IsTheLeastToAPercentThatLeavesSomeToSpare) {
 
 TEST(FactorThatFits, IsNoneWhereNoSizeHelps) {
   EXPECT_FALSE(factor_that_fits([](double f) { return forecast_at(f, 0); }, 55 * kMega));  // the peak so far
-  EXPECT_FALSE(factor_that_fits([](double f) { return forecast_at(f, 1000 * kMega); }, 500 * kMega));  // the floor
-  EXPECT_FALSE(factor_that_fits([](double f) { return forecast_at(f, 13.52 * kMega); }, 65.5 * kMega));   // no mesh left
+  EXPECT_FALSE(factor_that_fits([](double f) { return forecast_at(f, 1000 * kMega); }, 500 * kMega));    // the floor
+  EXPECT_FALSE(factor_that_fits([](double f) { return forecast_at(f, 13.52 * kMega); }, 65.5 * kMega));  // no mesh left
 }
 
 TEST(Limited, TakesTheShareOfTheVertices) {
