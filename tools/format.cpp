@@ -21,6 +21,12 @@ std::string number(double value, int digits) {
   return buffer;
 }
 
+std::string rounded_up(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 2);
+  const double rounded = std::ceil(value / unit * (1 - 1e-12)) * unit;
+  return number(rounded, rounded < 1000 ? 3 : 15);
+}
+
 std::string point(const Point3& p, int digits) {
   return number(p.x, digits) + ", " + number(p.y, digits) + ", " + number(p.z, digits);
 }

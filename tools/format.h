@@ -15,6 +15,9 @@ std::string grouped(std::size_t count);
 /// A number for people: up to `digits` significant digits, no trailing zeros.
 std::string number(double value, int digits = 4);
 
+/// A positive number to three significant digits, never less than it is.
+std::string rounded_up(double value);
+
 /// "x, y, z" with `digits` significant digits.
 std::string point(const Point3& p, int digits = 5);
 

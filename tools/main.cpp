@@ -27,7 +27,8 @@ constexpr Verb kVerbs[] = {
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, every promise verified; 2 usage; 3 input cannot be read; 4 nothing to mesh; 5 a limit stopped\n"
-    "the run or a promise does not hold (what there is was written); 6 output cannot be written; 130 cancelled.\n";
+    "the run or a promise does not hold (what there is was written), or the forecast exceeds --max-memory (nothing\n"
+    "was); 6 output cannot be written; 130 cancelled.\n";
 
 std::string overview() {
   std::string text = "delvox " DELVOX_VERSION ": Delaunay meshes of organs from CT and MRI volumes\n\n";
@@ -77,6 +78,8 @@ int run_and_map_errors(const Arguments& arguments) {
   } catch (const NothingToMesh& error) {
     return fail(kExitNothing, error.what());
   } catch (const PromiseBroken& error) {
+    return fail(kExitBroken, error.what());
+  } catch (const RunRefused& error) {
     return fail(kExitBroken, error.what());
   } catch (const IoError& error) {
     return fail(kExitOutput, error.what());

@@ -51,6 +51,9 @@ void add_limit_options(CLI::App& app, MeshingOptions& options) {
       ->check(finite_number(Zero::kAllowed))
       ->capture_default_str()
       ->type_name("S");
+  app.add_option("--max-memory", options.max_memory,
+                 "Refuse to begin if the forecast for the whole process exceeds this: 4G, 800M (default: no limit)")
+      ->type_name("SIZE");
 }
 
 }  // namespace

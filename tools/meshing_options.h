@@ -29,6 +29,7 @@ struct MeshingOptions {
   std::string border = "close";          ///< close or open
   std::string frame;                     ///< ras, lps, or empty: the volume's own
   RunLimits limits;
+  std::string max_memory;                ///< refuse to begin if more is forecast: "4G"; empty: no limit
   MeshOutputOptions output;
   std::string report;                    ///< path; empty: none
   ConsoleOptions console;

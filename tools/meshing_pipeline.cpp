@@ -11,6 +11,7 @@
 #include "delvox/meshing/deltetsurf.h"
 #include "delvox/oracle/isosurface_oracle.h"
 #include "exit_codes.h"
+#include "forecast.h"
 #include "format.h"
 #include "open_border.h"
 #include "progress.h"
@@ -43,6 +44,7 @@ class MeshingRun {
   void run(Json report) {
     check_mesh_outputs(options_.output.paths, options_.volume.path);
     check_output(options_.report, options_.volume.path);
+    if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
     read();
     decide();
     mesh();
@@ -58,6 +60,10 @@ class MeshingRun {
   void mesh();
   void search_size();
   void mesh_at(const SizeField& size);
+  ProcessForecast forecast_at(const Oracle& oracle, double factor) const;
+  void look_ahead(const Oracle& oracle);
+  [[noreturn]] void refuse(const Oracle& oracle, const ProcessForecast& forecast) const;
+  SurfaceCriteria surface_criteria(const SizeField& size) const;
   Mesh run_mesher(const Oracle& oracle, const SizeField& size);
   double smallest_spacing() const;
   double meshing_seconds() const;
@@ -79,6 +85,8 @@ class MeshingRun {
   SizeField size_ = 1.0;
   std::string size_sentence_;
   std::optional<SizeField> cell_size_;
+  std::optional<double> max_bytes_;
+  std::optional<Forecast> forecast_;
   Mesh mesh_;
   RunReport run_report_;
   FilterReport filter_report_;
@@ -127,14 +135,55 @@ double MeshingRun::smallest_spacing() const {
   return std::min({spacing.x, spacing.y, spacing.z});
 }
 
-// One run of the book's algorithm.
-Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
+SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
   SurfaceCriteria surface;
   surface.size = size;
   surface.min_angle_degrees = options_.min_angle_degrees;
   surface.max_deviation = options_.max_deviation.value_or(std::numeric_limits<double>::infinity());
   surface.min_ball_radius = options_.min_ball_radius.value_or(kMinBallRadiusVoxels * smallest_spacing());
   surface.thin_ball_radius = kThinBallRadiusVoxels * smallest_spacing();
+  return surface;
+}
+
+// What a run with sizes `factor` times as large is expected to take.
+ProcessForecast MeshingRun::forecast_at(const Oracle& oracle, double factor) const {
+  const SurfaceCriteria surface = surface_criteria(scaled(size_, factor));
+  const TetCriteria tets{options_.radius_edge, scaled(cell_size_.value_or(size_), factor)};
+  const Forecast mesh =
+      options_.kind == MeshKind::kSurface ? forecast_surface(oracle, surface) : forecast_tets(oracle, surface, tets);
+  return {limited(mesh, options_.limits.max_vertices), process_memory()};
+}
+
+// Says what is to be expected, once for all runs of --tets, and refuses what is too much.
+void MeshingRun::look_ahead(const Oracle& oracle) {
+  const ProcessForecast forecast = watch_.timed("forecast", [&] { return forecast_at(oracle, 1); });
+  if (forecast_) {
+    console_.detail(describe(forecast));
+  } else {
+    console_.note(describe(forecast));
+  }
+  forecast_ = forecast.mesh;
+  if (max_bytes_ && forecast.peak_bytes() > *max_bytes_) refuse(oracle, forecast);
+}
+
+void MeshingRun::refuse(const Oracle& oracle, const ProcessForecast& forecast) const {
+  const auto factor = factor_that_fits([&](double f) { return forecast_at(oracle, f); }, *max_bytes_);
+  std::string mend = "no size would fit; --crop or --resample the volume";
+  if (factor && size_.constant() && (!cell_size_ || cell_size_->constant())) {
+    mend = "--size " + rounded_up(*factor * size_.maximum());
+    if (cell_size_) mend += " with --cell-size " + rounded_up(*factor * cell_size_->maximum());
+    mend += options_.tets > 0 ? " in place of --tets would fit" : " would fit";
+  } else if (factor) {
+    mend = "sizes " + rounded_up(*factor) + " times as large would fit";
+  }
+  if (factor) mend += ", with " + elements(forecast_at(oracle, *factor).mesh);
+  throw RunRefused(options_.volume.path + ": the forecast of " + memory_text(forecast.peak_bytes()) +
+                   " exceeds --max-memory " + options_.max_memory + "; " + mend);
+}
+
+// One run of the book's algorithm.
+Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
+  const SurfaceCriteria surface = surface_criteria(size);
   RunControl control;
   control.limits = options_.limits;
   if (control.limits.max_seconds > 0) {  // what earlier runs of --tets have left of it
@@ -159,6 +208,7 @@ void MeshingRun::mesh_at(const SizeField& size) {
   filter_report_ = filtered.report;
   throw_if_cancelled();
   const auto oracle = watch_.timed("oracle", [&] { return make_isosurface_oracle(filtered.volume, chosen_.surface); });
+  look_ahead(*oracle);
   throw_if_cancelled();
   mesh_ = watch_.timed("meshing", [&] { return run_mesher(*oracle, size); });
   progress_.clear();
@@ -238,6 +288,8 @@ Json MeshingRun::report() const {
           {"size", size_sentence_},
           {"largest_size_mm", size_.maximum()},
           {"components", to_json(filter_report_)},
+          {"forecast", forecast_ ? to_json(*forecast_) : Json()},
+          {"peak_bytes", process_memory().peak},
           {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
           {"run", to_json(run_report_)},
           {"check", to_json(check_report_)},

@@ -97,6 +97,14 @@ Json to_json(const VoxelComparison& c) {
           {"surface_to_mesh_mean_mm", c.surface_to_mesh_mean_mm}};
 }
 
+Json to_json(const Estimate& e) {
+  return {{"vertices", std::round(e.vertices)},
+          {"triangles", std::round(e.triangles)},
+          {"tets", std::round(e.tets)},
+          {"seconds", e.seconds},
+          {"bytes", std::round(e.bytes)}};
+}
+
 }  // namespace
 
 Json run_header(const Verb& verb, const Arguments& arguments) {
@@ -138,6 +146,10 @@ Json to_json(const FilterReport& report) {
           {"removed_mm3", report.removed_mm3},
           {"cavities_filled", report.filled_cavities},
           {"filled_mm3", report.filled_mm3}};
+}
+
+Json to_json(const Forecast& forecast) {
+  return {{"least", to_json(forecast.least)}, {"likely", to_json(forecast.likely)}, {"thin", forecast.thin()}};
 }
 
 Json to_json(const MeshInfo& info) {

@@ -6,6 +6,7 @@
 #include "delvox/check/check_mesh.h"
 #include "delvox/core/mesh.h"
 #include "delvox/core/run.h"
+#include "delvox/meshing/forecast.h"
 #include "delvox/volume/volume.h"
 #include "verbs.h"
 
@@ -22,6 +23,7 @@ Json options_json(const CLI::App& app);
 Json to_json(const Point3& p);
 Json to_json(const VolumeHeader& header);
 Json to_json(const FilterReport& report);
+Json to_json(const Forecast& forecast);
 Json to_json(const MeshInfo& info);
 Json to_json(const RunReport& report);
 Json to_json(const CheckReport& report);

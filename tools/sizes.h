@@ -16,6 +16,9 @@ double default_size(const Volume& volume, const Isosurface& surface);
 /// patient frame is turned to `frame`. Throws OptionError, InputError.
 SizeField parse_size(const std::string& text, const std::string& option, Frame frame);
 
+/// A size field `factor` times as large.
+SizeField scaled(const SizeField& size, double factor);
+
 /// A guess at the size that gives `tets` tets, from the volume inside. Throws NothingToMesh if no sample is inside.
 double guess_size(std::size_t tets, const Volume& volume, const Isosurface& surface);
 

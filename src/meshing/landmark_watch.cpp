@@ -54,7 +54,7 @@ std::array<int, 3> LandmarkWatch::cube_of(const Point3& p) const {
 }
 
 void LandmarkWatch::note_change(const Box3& box, VertexId near) {
-  if (!all_) changes_.push_back({box, near});
+  if (!all_ && !empty()) changes_.push_back({box, near});
 }
 
 std::vector<LandmarkWatch::Due> LandmarkWatch::take_due() {

@@ -6,6 +6,7 @@
 #include "delvox/core/errors.h"
 #include "oracle/bracketed_root.h"
 #include "oracle/brick_field.h"
+#include "oracle/domain_patches.h"
 #include "oracle/voxel_seeds.h"
 
 namespace delvox {
@@ -80,6 +81,10 @@ class ImplicitOracle final : public SmoothOracle {
       if (inside(p - step) != inside(p + step)) seeds.points.push_back(polish(p - step, p + step));
     }
     return seeds;
+  }
+
+  void for_each_patch(const std::function<void(const DomainPatch&)>& visit) const override {
+    visit_patches(*field_, grid_to_world_, visit);
   }
 
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<ImplicitOracle>(*this); }

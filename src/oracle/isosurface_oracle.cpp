@@ -7,6 +7,7 @@
 #include "delvox/volume/voxel_topology.h"
 #include "oracle/bracketed_root.h"
 #include "oracle/brick_field.h"
+#include "oracle/domain_patches.h"
 #include "oracle/voxel_landmarks.h"
 #include "oracle/voxel_seeds.h"
 
@@ -65,6 +66,10 @@ class IsosurfaceOracle final : public SmoothOracle {
   std::optional<SurfaceTopology> topology() const override {
     const VoxelTopology counted = count_topology(volume_, surface_);
     return SurfaceTopology{counted.surface_components, counted.euler};
+  }
+
+  void for_each_patch(const std::function<void(const DomainPatch&)>& visit) const override {
+    visit_patches(*field_, to_world_, visit);
   }
 
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<IsosurfaceOracle>(*this); }

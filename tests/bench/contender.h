@@ -45,6 +45,10 @@ BenchRun run_mesh3(BenchImage image, const BenchCriteria& criteria, const Mesh3C
 /// vertex by Bowyer-Watson can beat on this machine without a faster kernel. Fills no mesh.
 BenchRun run_bulk_insertion(const std::vector<Point3>& points);
 
+/// The same by our kernel, in its own spatial order, without labels: the limit on the time of a refinement that inserts
+/// these vertices. `all_cells` as above, cells at the corners of the triangulation left out.
+BenchRun run_kernel_insertion(const std::vector<Point3>& points);
+
 /// Wall clock, CPU time and peak memory from construction to stop(). Inputs must be built before it.
 class Meter {
  public:

@@ -38,6 +38,16 @@ struct SurfaceTopology {
   friend bool operator==(const SurfaceTopology&, const SurfaceTopology&) = default;
 };
 
+/// What of a domain lies in a small box, a few voxels wide: for estimates.
+struct DomainPatch {
+  Point3 center;          ///< of the box, world
+  double width = 0;       ///< of the box, mm, the cube root of its volume
+  double inside_mm3 = 0;  ///< of the domain in it
+  /// The surface in it as seen along three orthogonal axes, mm2 each: where the outside lies up the axis, and where it
+  /// lies down.
+  Vector3 area_up, area_down;
+};
+
 /// What the meshers ask of a domain, whatever it is made of: voxels, formulas, polygon surfaces.
 /// An edge is bipolar if the labels of its two ends differ (book, 14.1.3); labels are constant on each side of the
 /// surface. Queries are const but need not be thread-safe: clone() one oracle per thread.
@@ -63,6 +73,9 @@ class Oracle {
   }
   /// The topology of the whole surface, if the domain can count it.
   virtual std::optional<SurfaceTopology> topology() const { return std::nullopt; }
+  /// Calls visit for boxes that hold the whole domain without overlap, in one fixed order; for none if the domain
+  /// cannot tell. Takes a small part of the time of seeds().
+  virtual void for_each_patch(const std::function<void(const DomainPatch&)>& visit) const { (void)visit; }
   /// An independent oracle of the same domain.
   virtual std::unique_ptr<Oracle> clone() const = 0;
 };

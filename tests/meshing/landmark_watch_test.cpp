@@ -1,0 +1,142 @@
+#include "meshing/landmark_watch.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "support/random.h"
+
+namespace delvox {
+namespace {
+
+using test::Random;
+
+const Box3 kBox{{-10, -4, 0}, {10, 4, 3}};
+
+/// Points anywhere, with links between near ones.
+Landmarks random_landmarks(int count, Random& random) {
+  Landmarks landmarks;
+  for (int n = 0; n < count; ++n) landmarks.points.push_back(random.in(kBox));
+  for (std::uint32_t a = 0; a < landmarks.points.size(); ++a) {
+    for (std::uint32_t b = 0; b < a; ++b) {
+      if (distance(landmarks.points[a], landmarks.points[b]) < 0.7) landmarks.links.push_back({a, b});
+    }
+  }
+  return landmarks;
+}
+
+double longest_link(const Landmarks& landmarks) {
+  double longest = 0;
+  for (const auto& [a, b] : landmarks.links) {
+    longest = std::max(longest, distance(landmarks.points[a], landmarks.points[b]));
+  }
+  return longest;
+}
+
+Box3 random_box(Random& random) {
+  Box3 box;
+  const Point3 center = random.in({{-14, -8, -4}, {14, 8, 7}});  // also where there are no landmarks
+  for (int corner = 0; corner < 2; ++corner) box.extend(center + random.between(0, 2.5) * random.direction());
+  return box;
+}
+
+std::vector<std::uint32_t> numbers_of(const std::vector<LandmarkWatch::Due>& due) {
+  std::vector<std::uint32_t> numbers;
+  for (const LandmarkWatch::Due& d : due) numbers.push_back(d.landmark);
+  return numbers;
+}
+
+TEST(LandmarkWatch, AllAreDueAtFirstAndThenNone) {
+  Random random(1);
+  LandmarkWatch watch(random_landmarks(200, random));
+  EXPECT_EQ(watch.size(), 200u);
+  watch.note_change(kBox, 7);  // before the first look all are due anyway
+  const auto due = watch.take_due();
+  ASSERT_EQ(due.size(), 200u);
+  for (std::uint32_t i = 0; i < due.size(); ++i) {
+    EXPECT_EQ(due[i].landmark, i);
+    EXPECT_EQ(due[i].near, kNone);
+  }
+  EXPECT_TRUE(watch.take_due().empty());
+}
+
+TEST(LandmarkWatch, ThoseWithinALinkOfAChangeAreDueOnceInOrderWithTheVertexOfTheFirstChange) {
+  Random random(2);
+  const Landmarks landmarks = random_landmarks(400, random);
+  const double reach = longest_link(landmarks);
+  LandmarkWatch watch(landmarks);
+  watch.take_due();
+  std::size_t met = 0;
+  for (int round = 0; round < 200; ++round) {
+    std::vector<Box3> boxes;
+    const auto changes = static_cast<VertexId>(random.below(4));
+    for (VertexId change = 0; change < changes; ++change) {
+      boxes.push_back(random_box(random));
+      watch.note_change(boxes.back(), 100 + change);
+    }
+    std::vector<std::uint32_t> expected;
+    std::vector<VertexId> near;
+    for (std::uint32_t i = 0; i < landmarks.points.size(); ++i) {
+      const auto first = std::find_if(boxes.begin(), boxes.end(), [&](const Box3& box) {
+        const Vector3 margin{reach, reach, reach};
+        return Box3{box.min - margin, box.max + margin}.contains(landmarks.points[i]);
+      });
+      if (first == boxes.end()) continue;
+      expected.push_back(i);
+      near.push_back(100 + static_cast<VertexId>(first - boxes.begin()));
+    }
+    const auto due = watch.take_due();
+    ASSERT_EQ(numbers_of(due), expected);
+    for (std::size_t i = 0; i < due.size(); ++i) EXPECT_EQ(due[i].near, near[i]);
+    met += due.size();
+    EXPECT_TRUE(watch.take_due().empty());
+  }
+  EXPECT_GT(met, 300u);
+}
+
+TEST(LandmarkWatch, LinksOfAwaitedLandmarksComeOnceHoweverOftenTheyAreAwaited) {
+  Random random(3);
+  const Landmarks landmarks = random_landmarks(300, random);
+  ASSERT_GT(landmarks.links.size(), 100u);
+  LandmarkWatch watch(landmarks);
+  EXPECT_TRUE(watch.take_links().empty());
+  for (int round = 0; round < 20; ++round) {
+    std::set<std::uint32_t> awaited, expected;
+    for (int call = 0; call < 3; ++call) {
+      std::vector<LandmarkWatch::Due> due;
+      for (int n = 0; n < 30; ++n) due.push_back({static_cast<std::uint32_t>(random.below(300)), kNone});
+      watch.await_links_of(due);
+      for (std::uint32_t i : numbers_of(due)) awaited.insert(i);
+    }
+    for (std::uint32_t link = 0; link < landmarks.links.size(); ++link) {
+      EXPECT_EQ(watch.link(link), landmarks.links[link]);
+      if (awaited.contains(landmarks.links[link][0]) || awaited.contains(landmarks.links[link][1]))
+        expected.insert(link);
+    }
+    std::vector<std::uint32_t> links = watch.take_links();
+    std::sort(links.begin(), links.end());
+    EXPECT_EQ(links, std::vector<std::uint32_t>(expected.begin(), expected.end()));
+    EXPECT_TRUE(watch.take_links().empty());
+  }
+}
+
+TEST(LandmarkWatch, WorksForNoneForOneAndForManyInOnePlace) {
+  LandmarkWatch none;
+  EXPECT_TRUE(none.empty());
+  EXPECT_TRUE(none.take_due().empty());
+  none.note_change(kBox, 1);
+  EXPECT_TRUE(none.take_due().empty());
+  EXPECT_TRUE(LandmarkWatch(Landmarks{}).empty());
+  for (const std::size_t count : {1, 50}) {
+    LandmarkWatch watch(Landmarks{std::vector<Point3>(count, Point3{1, 2, 3}), {}});
+    EXPECT_EQ(watch.take_due().size(), count);
+    watch.note_change({{1, 2, 3}, {1, 2, 3}}, 5);
+    EXPECT_EQ(watch.take_due().size(), count);
+    watch.note_change({{1.001, 2, 3}, {4, 4, 4}}, 5);  // no links: nothing reaches farther than the change
+    EXPECT_TRUE(watch.take_due().empty());
+  }
+}
+
+}  // namespace
+}  // namespace delvox
