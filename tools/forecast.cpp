@@ -20,19 +20,20 @@ Estimate operator*(double part, const Estimate& whole) {
 
 // Two digits of a count, which is a guess anyway.
 std::string about(double count) {
+  if (!(count < 1e15)) return "countless";
   const double unit = count < 100 ? 1 : std::pow(10, std::floor(std::log10(count)) - 1);
   return grouped(static_cast<std::size_t>(std::llround(count / unit) * std::llround(unit)));
 }
 
 std::string elements(const Estimate& estimate) {
   return about(estimate.vertices) + " vertices, " +
-         (estimate.tets > 0 ? about(estimate.tets) + " tets" : about(estimate.triangles) + " triangles");
+         (estimate.tets != 0 ? about(estimate.tets) + " tets" : about(estimate.triangles) + " triangles");
 }
 
 }  // namespace
 
 double ProcessForecast::peak_bytes() const {
-  return std::max(before.peak, before.now + mesh.likely.bytes);
+  return std::max(before.now + mesh.likely.bytes, before.peak);  // in this order what is no number stays none
 }
 
 Forecast limited(Forecast forecast, std::size_t max_vertices) {
@@ -56,6 +57,7 @@ std::string describe(const ProcessForecast& forecast) {
 }
 
 std::string memory_text(double bytes) {
+  if (!(bytes < 1e18)) return "exabytes";
   std::size_t unit = 0;
   for (bytes /= 1024; bytes >= 1000 && unit + 1 < kUnits.size(); ++unit) bytes /= 1024;
   return number(bytes, 3) + " " + kUnits[unit] + "B";

@@ -163,7 +163,7 @@ void MeshingRun::look_ahead(const Oracle& oracle) {
     console_.note(describe(forecast));
   }
   forecast_ = forecast.mesh;
-  if (max_bytes_ && forecast.peak_bytes() > *max_bytes_) refuse(oracle, forecast);
+  if (max_bytes_ && !(forecast.peak_bytes() <= *max_bytes_)) refuse(oracle, forecast);
 }
 
 void MeshingRun::refuse(const Oracle& oracle, const ProcessForecast& forecast) const {

@@ -143,7 +143,6 @@ void run_phantom(const Verb& verb, const Arguments& arguments) {
   const Console console(options.console);
   const VolumeSourcePtr volume = cancellable(phantom_source(options.kind, phantom));
   write_volume(*volume, options.output);
-  throw_if_cancelled();
   console.note("wrote " + options.output);
   if (console.json()) {
     Json json = run_header(verb, arguments);

@@ -58,7 +58,7 @@ Estimate estimate(const Costs& costs, const SizeIntegrals& sizes, const Measured
 }
 
 Forecast forecast(const Costs& costs, const MeasuredDomain& domain) {
-  if (!(domain.wanted.surface > 0)) return {};
+  if (domain.wanted.surface == 0) return {};  // not where sizes too small for numbers make it infinite or none at all
   const Forecast both{estimate(costs, domain.wanted, domain), estimate(costs, domain.resolved, domain)};
   // Sums over cubes are not exactly those over patches.
   return both.thin() ? both : Forecast{both.least, both.least};

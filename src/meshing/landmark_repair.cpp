@@ -84,6 +84,7 @@ bool Refinement::repair_links() {
 bool Refinement::insert_where_misplaced(const std::vector<MisplacedCell>& misplaced) {
   bool inserted = false;
   for (const MisplacedCell& place : misplaced) {
+    if (!budget_left()) return inserted;
     if (delaunay_.alive(place.cell, place.stamp)) inserted |= insert_for_landmark(place.crossing, place.cell);
   }
   return inserted;

@@ -143,7 +143,7 @@ class Refinement {
   std::uint32_t next_stamp_after_edges_ = 0;
   double shortest_excursion_ = 0.1;  // of Voronoi edges that the mesh takes notice of, in sizes
   std::optional<SurfaceTopology> expected_topology_;
-  std::size_t vertices_at_first_look_ = 0;
+  std::size_t vertices_at_first_look_ = 0, closer_insertions_ = 0;
   RepairEffort effort_;
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;

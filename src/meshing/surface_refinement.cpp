@@ -170,7 +170,8 @@ bool Refinement::repair_umbrella(VertexId vertex) {
     unrepaired_.push_back(vertex);
     return false;
   }
-  effort_.add(std::sqrt(largest.squared_radius), vertex_count());
+  // What Voronoi edges have asked for makes small balls, hence work here, where nothing is as thin as all that.
+  if (next_stamp_after_edges_ == 0) effort_.add(std::sqrt(largest.squared_radius), vertex_count());
   if (!insert_surface_point(largest.center, facet.cell)) return false;
   ++report_.topology_insertions;
   return true;

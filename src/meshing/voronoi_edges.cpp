@@ -13,8 +13,8 @@ bool far_apart(std::span<const Point3> crossings, double bound) {
   return false;
 }
 
-/// So much of the mesh that it had when its topology was looked at first may come for its sake.
-constexpr double kMostGrowth = 1.5;
+/// So many insertions for each vertex of the surface, as it was when its topology was first looked at, may look closer.
+constexpr double kMostGrowth = 0.2;
 
 }  // namespace
 
@@ -24,7 +24,7 @@ constexpr double kMostGrowth = 1.5;
 /// if excursions shorter than a bound are left alone, as they must be: trilinear surfaces have creases at the faces of
 /// voxels, along which Voronoi edges of any mesh make some.
 bool Refinement::repair_voronoi_edges() {
-  const bool grown = expected_topology_ && vertex_count() > kMostGrowth * vertices_at_first_look_;
+  const bool grown = expected_topology_ && closer_insertions_ > kMostGrowth * vertices_at_first_look_;
   if (grown) return false;
   std::vector<MisplacedCell> misplaced;
   const std::uint32_t first_new = next_stamp_after_edges_;
@@ -39,7 +39,10 @@ bool Refinement::repair_voronoi_edges() {
       if (const auto p = crossing_of_excursion({cell, i})) misplaced.push_back({*p, cell, stamp});
     }
   }
-  return insert_where_misplaced(misplaced);
+  const std::size_t before = report_.topology_insertions;
+  const bool inserted = insert_where_misplaced(misplaced);
+  if (expected_topology_) closer_insertions_ += report_.topology_insertions - before;
+  return inserted;
 }
 
 /// If the dual edge leaves its side for a while: its crossing farthest from the facet's vertices.
@@ -63,6 +66,7 @@ std::optional<Point3> Refinement::crossing_of_excursion(FacetId facet) const {
 bool Refinement::look_closer() {
   constexpr double kShortestOfAll = 0.001;
   if (!surface_.size.constant()) return false;  // where the mesh is coarse it may differ
+  if (tet_criteria_ != nullptr) return false;   // among interior vertices it takes many and finds little
   if (!expected_topology_) {
     expected_topology_ = oracle_.topology();
     vertices_at_first_look_ = vertex_count();

@@ -91,5 +91,10 @@ TEST_F(CliForecast, AMemoryThatIsNoneIsAUsageErrorBeforeAnyWork) {
   }
 }
 
+TEST_F(CliForecast, SizesTooSmallForAnyNumberAreRefused) {
+  EXPECT_EQ(mesh("tet", {"--cell-size", "1e-300", "--max-memory", "1G", "--quiet"}).code, 5);
+  EXPECT_EQ(mesh("tet", {"--size", "1e-9", "--max-memory", "1G", "--quiet"}).code, 5);
+}
+
 }  // namespace
 }  // namespace delvox::test
