@@ -64,15 +64,15 @@ std::optional<Point3> Refinement::crossing_of_excursion(FacetId facet) const {
 /// With all that is looked at in order: if the oracle counts another topology, looks at shorter excursions too, as long
 /// as that takes few vertices.
 bool Refinement::look_closer() {
-  constexpr double kShortestOfAll = 0.001;
+  // Among interior vertices the shortest take many insertions and find little.
+  const double shortest_of_all = tet_criteria_ != nullptr ? 0.02 : 0.001;
   if (!surface_.size.constant()) return false;  // where the mesh is coarse it may differ
-  if (tet_criteria_ != nullptr) return false;   // among interior vertices it takes many and finds little
   if (!expected_topology_) {
     expected_topology_ = oracle_.topology();
     vertices_at_first_look_ = vertex_count();
   }
   if (!expected_topology_ || topology() == *expected_topology_) return false;
-  while (shortest_excursion_ > kShortestOfAll) {
+  while (shortest_excursion_ > shortest_of_all) {
     shortest_excursion_ /= 2;
     next_stamp_after_edges_ = 0;
     if (repair_voronoi_edges()) return true;
