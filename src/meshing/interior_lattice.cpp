@@ -171,6 +171,19 @@ bool InteriorLattice::block_removed(const RestrictedDelaunay& delaunay) {
   return any;
 }
 
+std::size_t InteriorLattice::insert_shell(RestrictedDelaunay& delaunay, const GoOn& go_on) {
+  std::vector<Point3> points;
+  std::vector<VertexId*> vertices;
+  for (ShellSite& shell : shell_) {
+    if (shell.vertex != kNone) continue;
+    points.push_back(point(shell.site));
+    vertices.push_back(&shell.vertex);
+  }
+  const std::vector<VertexId> inserted = delaunay.insert_interior(points, go_on);
+  for (std::size_t i = 0; i < inserted.size(); ++i) *vertices[i] = inserted[i];
+  return inserted.size() - static_cast<std::size_t>(std::count(inserted.begin(), inserted.end(), kNone));
+}
+
 bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
   const bool removed = block_removed(delaunay), nearer = block_near_surface(delaunay);
   if (!removed && !nearer) return false;

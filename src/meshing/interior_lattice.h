@@ -37,6 +37,8 @@ class InteriorLattice {
   void find_depths();
   Point3 point(Site site) const;
   std::vector<ShellSite>& shell() { return shell_; }
+  /// Inserts those of the shell that have no vertex yet, until go_on() says to end; how many were.
+  std::size_t insert_shell(RestrictedDelaunay& delaunay, const GoOn& go_on);
   /// Blocks the sites whose vertices are gone and those near vertices that the surface has got since, and moves the
   /// shell inward there. False if there is none.
   bool adapt(const RestrictedDelaunay& delaunay);

@@ -16,7 +16,8 @@ bool Refinement::repair_landmarks() {
     if (!budget_left()) return inserted;
     inserted |= repair_landmark(landmark);
   }
-  return inserted || repair_links() || repair_pieces() || repair_voronoi_edges() || look_closer();
+  return inserted || repair_links() || repair_pieces() || repair_voronoi_edges(next_stamp_after_edges_) ||
+         look_closer();
 }
 
 /// The cell that holds a landmark, looked for only if the one known is gone.

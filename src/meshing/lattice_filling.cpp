@@ -23,18 +23,7 @@ void Refinement::fill_interior(const TetCriteria& criteria) {
 }
 
 void Refinement::insert_shell(InteriorLattice& lattice) {
-  std::vector<Point3> points;
-  std::vector<VertexId*> vertices;
-  for (InteriorLattice::ShellSite& shell : lattice.shell()) {
-    if (shell.vertex != kNone) continue;
-    points.push_back(lattice.point(shell.site));
-    vertices.push_back(&shell.vertex);
-  }
-  const std::vector<VertexId> inserted = delaunay_.insert_interior(points, [this] { return budget_left(); });
-  for (std::size_t i = 0; i < inserted.size(); ++i) {
-    *vertices[i] = inserted[i];
-    report_.interior_insertions += inserted[i] != kNone;
-  }
+  report_.interior_insertions += lattice.insert_shell(delaunay_, [this] { return budget_left(); });
   note_new_facets();
   enqueue_created();
 }

@@ -33,15 +33,6 @@ class Refinement {
   void refine_surface();
   /// Step 5, then landmarks; neither once step 5 has turned out to be hopeless. True if anything was inserted.
   bool repair() { return !effort_.hopeless() && (repair_topology() || repair_landmarks()); }
-  /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
-  bool repair_topology();
-
-  /// For meshes fine enough that the oracle has landmarks: one insertion for each landmark on the wrong side of the
-  /// mesh; if there is none, for each link that does not stay on its side; if there is none, for each piece without a
-  /// landmark; if there is none, for each Voronoi edge that makes an excursion to the other side. True if anything was
-  /// inserted. All but the last is not in the book: trilinear surfaces have necks and gaps of any width, which no size
-  /// field foresees.
-  bool repair_landmarks();
 
   /// Fills the inside with a lattice where a constant bound on circumradii leaves room for one.
   void fill_interior(const TetCriteria& criteria);
@@ -89,6 +80,16 @@ class Refinement {
   void mark_dirty(FacetId facet);
   bool repair_umbrella(VertexId vertex);
 
+  // Repair (surface_refinement.cpp, landmark_repair.cpp)
+  /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
+  bool repair_topology();
+  /// For meshes fine enough that the oracle has landmarks: one insertion for each landmark on the wrong side of the
+  /// mesh; if there is none, for each link that does not stay on its side; if there is none, for each piece without a
+  /// landmark; if there is none, for each Voronoi edge that makes an excursion to the other side. True if anything was
+  /// inserted. All but the last is not in the book: trilinear surfaces have necks and gaps of any width, which no size
+  /// field foresees.
+  bool repair_landmarks();
+
   // Landmarks (landmark_repair.cpp)
   CellId cell_of_landmark(const LandmarkWatch::Due& due);
   bool repair_landmark(const LandmarkWatch::Due& due);
@@ -106,7 +107,7 @@ class Refinement {
   bool budget_left() { return budget_.go_on(vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
 
   // Voronoi edges (voronoi_edges.cpp)
-  bool repair_voronoi_edges();
+  bool repair_voronoi_edges(std::uint32_t first_new);
   bool look_closer();
   SurfaceTopology topology() const;
   std::optional<Point3> crossing_of_excursion(FacetId facet) const;

@@ -18,16 +18,15 @@ constexpr double kMostGrowth = 0.2;
 
 }  // namespace
 
-/// VorEdge (book, 14.2.1) on the edges that are new: the topological ball property allows a Voronoi edge one crossing.
-/// One that makes an excursion to the other side and back is a neck that the mesh cuts, or a gap that it bridges. As in
-/// the book, the crossing farthest from the vertices goes in; it is half an excursion away from them, so that this ends
-/// if excursions shorter than a bound are left alone, as they must be: trilinear surfaces have creases at the faces of
-/// voxels, along which Voronoi edges of any mesh make some.
-bool Refinement::repair_voronoi_edges() {
+/// VorEdge (book, 14.2.1) on the edges of cells with a stamp from `first_new` on: the topological ball property allows
+/// a Voronoi edge one crossing. One that makes an excursion to the other side and back is a neck that the mesh cuts, or
+/// a gap that it bridges. As in the book, the crossing farthest from the vertices goes in; it is half an excursion away
+/// from them, so that this ends if excursions shorter than a bound are left alone, as they must be: trilinear surfaces
+/// have creases at the faces of voxels, along which Voronoi edges of any mesh make some.
+bool Refinement::repair_voronoi_edges(std::uint32_t first_new) {
   const bool grown = expected_topology_ && closer_insertions_ > kMostGrowth * vertices_at_first_look_;
   if (grown) return false;
   std::vector<MisplacedCell> misplaced;
-  const std::uint32_t first_new = next_stamp_after_edges_;
   next_stamp_after_edges_ = delaunay_.next_stamp();
   for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay_.cell_capacity(); ++cell) {
     const std::uint32_t stamp = delaunay_.stamp(cell);
@@ -74,8 +73,7 @@ bool Refinement::look_closer() {
   if (!expected_topology_ || topology() == *expected_topology_) return false;
   while (shortest_excursion_ > shortest_of_all) {
     shortest_excursion_ /= 2;
-    next_stamp_after_edges_ = 0;
-    if (repair_voronoi_edges()) return true;
+    if (repair_voronoi_edges(0)) return true;
   }
   return false;
 }

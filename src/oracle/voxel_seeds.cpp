@@ -88,9 +88,10 @@ class SeedMaker {
     const double squared = per_voxel(spacing) * per_voxel(spacing);
     const int copies = static_cast<int>(std::clamp(std::ceil(squared), 1.0, double(kMostCopies)));
     if (spacing > 2 * voxel_) {
-      // Jittered after thinning: few are kept. Moved by more than a small part of their spacing, some would come so near to
-      // each other that angles ask for many more vertices around them.
-      if (thinner_.keep(world, spacing)) seeds_.points.push_back(jittered(edge, 0, std::min(0.5, 0.07 * spacing / voxel_)));
+      // Jittered after thinning: few are kept. Moved by more than a small part of their spacing, some would come so
+      // near to each other that angles ask for many more vertices around them.
+      if (thinner_.keep(world, spacing))
+        seeds_.points.push_back(jittered(edge, 0, std::min(0.5, 0.07 * spacing / voxel_)));
       return;
     }
     const double reach = spacing < voxel_ ? 0.5 : 0.25 * spacing / voxel_;

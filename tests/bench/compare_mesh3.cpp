@@ -12,6 +12,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bench_main.h"
 #include "delvox/mesh_io/write_mesh.h"
 #include "delvox/volume/voxel_topology.h"
 #include "scoreboard.h"
@@ -253,13 +254,10 @@ int main_of(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   options.mesh3.function_domain = options.mesh3_domain == "function";
   options.mesh3.component_seeds = options.mesh3_seeds == "components";
-  try {
+  return exit_code_of("compare_mesh3", [&] {
     if (!options.size && options.tets == 0) throw std::runtime_error("one of --size and --tets is needed");
     return Comparison(options).run();
-  } catch (const std::exception& error) {
-    std::cerr << "compare_mesh3: " << error.what() << "\n";
-    return 2;
-  }
+  });
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <optional>
 
+#include "bench_main.h"
 #include "delvox/volume/voxel_topology.h"
 #include "scoreboard.h"
 
@@ -105,12 +106,7 @@ int main_of(int argc, char** argv) {
   app.add_option("--smooth", options.smooth, "Gaussian smoothing before all, sigma in mm");
   app.add_option("--repeat", options.repeat, "Runs of each")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
-  try {
-    return Limit(options).run();
-  } catch (const std::exception& error) {
-    std::cerr << "delaunay_bench: " << error.what() << "\n";
-    return 2;
-  }
+  return exit_code_of("delaunay_bench", [&] { return Limit(options).run(); });
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <optional>
 
 #include "bench_image.h"
+#include "bench_main.h"
 #include "core/hash.h"
 #include "delvox/meshing/deltetsurf.h"
 #include "delvox/oracle/isosurface_oracle.h"
@@ -257,12 +258,7 @@ int main_of(int argc, char** argv) {
   app.add_option("--repeat", options.repeat, "Rounds")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
-  try {
-    return OracleBench(options).run();
-  } catch (const std::exception& error) {
-    std::cerr << "oracle_bench: " << error.what() << "\n";
-    return 2;
-  }
+  return exit_code_of("oracle_bench", [&] { return OracleBench(options).run(); });
 }
 
 }  // namespace

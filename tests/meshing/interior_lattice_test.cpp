@@ -44,18 +44,6 @@ class InteriorLatticeTest : public testing::TestWithParam<const char*> {
     }
   }
 
-  void insert_shell(InteriorLattice& lattice) {
-    std::vector<Point3> points;
-    std::vector<VertexId*> vertices;
-    for (InteriorLattice::ShellSite& shell : lattice.shell()) {
-      if (shell.vertex != kNone) continue;
-      points.push_back(lattice.point(shell.site));
-      vertices.push_back(&shell.vertex);
-    }
-    const std::vector<VertexId> inserted = delaunay_.insert_interior(points, always_go_on);
-    for (std::size_t i = 0; i < inserted.size(); ++i) *vertices[i] = inserted[i];
-  }
-
   InteriorLattice lattice(double cell_size = kCellSize) const { return {delaunay_, cell_size, always_go_on}; }
 
   Point3 corner(const DeepLattice& deep, std::uint32_t number) const {
@@ -140,7 +128,7 @@ TEST_P(InteriorLatticeTest, SitesLieInsideClearOfTheSurfaceAndItsBalls) {
 TEST_P(InteriorLatticeTest, DeepTetsAreDelaunayAndFillWhatTheirWallsEnclose) {
   InteriorLattice lattice = this->lattice();
   lattice.find_depths();
-  insert_shell(lattice);
+  lattice.insert_shell(delaunay_, always_go_on);
   const DeepLattice deep = lattice.deep();
   ASSERT_GT(deep.points.size(), 20u);
   EXPECT_EQ(deep.points.size(), deep.labels.size());
@@ -165,7 +153,7 @@ TEST_P(InteriorLatticeTest, DeepTetsAreDelaunayAndFillWhatTheirWallsEnclose) {
 TEST_P(InteriorLatticeTest, ASiteThatIsRemovedMovesTheShellInward) {
   InteriorLattice lattice = this->lattice();
   lattice.find_depths();
-  insert_shell(lattice);
+  lattice.insert_shell(delaunay_, always_go_on);
   EXPECT_FALSE(lattice.adapt(delaunay_));
   const DeepLattice before = lattice.deep();
   std::vector<InteriorLattice::Site> removed;
@@ -183,7 +171,7 @@ TEST_P(InteriorLatticeTest, ASiteThatIsRemovedMovesTheShellInward) {
       EXPECT_EQ(delaunay_.point(shell.vertex), lattice.point(shell.site));
     }
   }
-  insert_shell(lattice);
+  lattice.insert_shell(delaunay_, always_go_on);
   EXPECT_FALSE(lattice.adapt(delaunay_));
   const DeepLattice after = lattice.deep();
   EXPECT_EQ(before.points.size(), after.points.size() + to_insert);

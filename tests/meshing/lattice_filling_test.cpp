@@ -56,7 +56,7 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
   void refine_surface() {
     do {
       refinement_->refine_surface();
-    } while (refinement_->repair_topology() || refinement_->repair_landmarks());
+    } while (refinement_->repair());
   }
 
   /// The rest of deltetsurf.
@@ -65,7 +65,7 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
     do {
       refinement_->refine_surface();
       refinement_->refine_tets();
-    } while (refinement_->repair_topology() || refinement_->repair_landmarks());
+    } while (refinement_->repair());
     refinement_->report_unmet();
     const auto& deep = refinement_->deep();
     TetMesh mesh = extract_tets(refinement_->delaunay(), deep ? &*deep : nullptr);

@@ -16,8 +16,8 @@ struct Estimate {
 /// An estimate before meshing, from nothing but the area of the surface, the volume that it encloses, and the sizes.
 struct Forecast {
   Estimate least;  ///< if the surface is as smooth and its parts are as thick as the sizes ask for
-  Estimate
-      likely;  ///< with what parts thinner than the size take that topology has refined; as `least` if there are few
+  /// With what parts thinner than the size take that topology has refined; as `least` if there are few.
+  Estimate likely;
 
   /// Whether thin parts make a difference: then `likely` is a guess at the order of magnitude.
   bool thin() const { return likely.vertices > 1.25 * least.vertices; }

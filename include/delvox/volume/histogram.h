@@ -45,9 +45,9 @@ class SampleStatistics {
   /// Otsu's thresholds (IEEE SMC 9, 1979), which part the samples into `classes` classes of least variance within:
   /// (classes - 1) values in ascending order, as isovalues. Exact optimum over bins: one bin per integer if all samples
   /// are integers that span at most 65536, else 65536 bins of equal width. A threshold lies a hair above
-  /// midway between the neighbouring occupied bins of two classes, so integer and label volumes have no sample on it, nor
-  /// a saddle of a voxel's face. Empty if there are
-  /// fewer distinct values than classes. Throws OptionError: classes below 2.
+  /// midway between the neighbouring occupied bins of two classes, so integer and label volumes have no sample on it, and
+  /// those whose bins are neighbouring integers no saddle of a voxel's face. Empty if there are fewer distinct values
+  /// than classes. Throws OptionError: classes below 2.
   std::vector<double> otsu_isovalues(int classes) const;
 
  private:
