@@ -72,15 +72,16 @@ inline void expect_promises_held(const std::string& volume, const std::vector<st
 
 /// At half a voxel the mesh has the components and the Euler number of the trilinear isosurface.
 inline void expect_topology_of_the_voxels(const Scan& scan, const std::string& volume, const TemporaryFolder& folder) {
+  const std::string out = folder / "crop.vtu", size = std::to_string(scan.half_voxel);
   for (const std::string& crop : scan.crops) {
-    const std::string out = folder / "crop.vtu";
-    const std::vector<std::string> options =
-        joined(scan.options, {"--crop", crop, "--min-component", "0"});
-    const Outcome run = run_delvox(joined({"surface", volume, "--size", std::to_string(scan.half_voxel), "-o", out,
-                                           "--quiet"}, options));
-    ASSERT_EQ(run.code, 0) << crop << ": " << run.err;
-    const Outcome check = run_delvox(joined({"check", out, "--volume", volume, "--same-topology"}, options));
-    EXPECT_EQ(check.code, 0) << crop << ": " << check.out << check.err;
+    const std::vector<std::string> options = joined(scan.options, {"--crop", crop, "--min-component", "0"});
+    for (const char* verb : {"surface", "tet"}) {
+      SCOPED_TRACE(verb + (" " + crop));
+      const Outcome run = run_delvox(joined({verb, volume, "--size", size, "-o", out, "--quiet"}, options));
+      ASSERT_EQ(run.code, 0) << run.err;
+      const Outcome check = run_delvox(joined({"check", out, "--volume", volume, "--same-topology"}, options));
+      EXPECT_EQ(check.code, 0) << check.out << check.err;
+    }
   }
 }
 
