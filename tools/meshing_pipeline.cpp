@@ -4,16 +4,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "delvox/check/check_mesh.h"
 #include "delvox/core/errors.h"
 #include "delvox/meshing/delsurf.h"
 #include "delvox/meshing/deltetsurf.h"
-#include "delvox/oracle/isosurface_oracle.h"
 #include "exit_codes.h"
 #include "forecast.h"
 #include "format.h"
-#include "open_border.h"
+#include "meshing_domain.h"
 #include "progress.h"
 #include "report_json.h"
 #include "signals.h"
@@ -26,26 +26,20 @@
 namespace delvox::tools {
 namespace {
 
-constexpr double kMinBallRadiusVoxels = 0.0001, kThinBallRadiusVoxels = 0.25;
-
-/// Whether an isovalue takes passes over the samples: all but a number do.
-bool needs_samples(const std::string& iso) {
-  return iso.empty() || iso.find_first_not_of("0123456789.eE+-") != std::string::npos;
-}
-
 class MeshingRun {
  public:
   explicit MeshingRun(const MeshingOptions& options)
       : options_(options),
         console_(options.console),
-        progress_(ProgressDisplay::style_for_stderr(options.console.quiet)) {}
+        progress_(ProgressDisplay::style_for_stderr(options.console.quiet)),
+        domain_(make_volume_domain(options)) {}
 
   /// The steps, in order. `report` already holds what is known before the run.
   void run(Json report) {
     check_mesh_outputs(options_.output.paths, options_.volume.path);
     check_output(options_.report, options_.volume.path);
     if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
-    read();
+    domain_->read(watch_, console_);
     decide();
     mesh();
     check();
@@ -55,7 +49,6 @@ class MeshingRun {
   }
 
  private:
-  void read();
   void decide();
   void mesh();
   void search_size();
@@ -65,7 +58,6 @@ class MeshingRun {
   [[noreturn]] void refuse(const Oracle& oracle, const ProcessForecast& forecast) const;
   SurfaceCriteria surface_criteria(const SizeField& size) const;
   Mesh run_mesher(const Oracle& oracle, const SizeField& size);
-  double smallest_spacing() const;
   double meshing_seconds() const;
   void check();
   void write();
@@ -77,11 +69,7 @@ class MeshingRun {
   Console console_;
   ProgressDisplay progress_;
   Stopwatch watch_;
-  VolumeHeader file_header_;
-  std::optional<Volume> volume_;
-  FrameChange frame_;
-  ChosenIsosurface chosen_;
-  std::optional<Ties> ties_;
+  std::unique_ptr<MeshingDomain> domain_;
   SizeField size_ = 1.0;
   std::string size_sentence_;
   std::optional<SizeField> cell_size_;
@@ -89,50 +77,22 @@ class MeshingRun {
   std::optional<Forecast> forecast_;
   Mesh mesh_;
   RunReport run_report_;
-  FilterReport filter_report_;
   CheckReport check_report_;
   std::string verdict_;
 };
 
-// Opens the volume, chooses the isovalue, and reads what lies near its surface.
-void MeshingRun::read() {
-  const VolumeInput input = open_input(options_.volume, options_.frame);
-  file_header_ = input.file_header;
-  frame_ = input.frame;
-  VolumeSourcePtr source = input.source;
-  if (needs_samples(options_.isosurface.iso)) {
-    source = watch_.timed("reading", [&] { return kept_if_small(source); });
-  }
-  chosen_ = watch_.timed("isovalue", [&] { return choose_isosurface(*source, options_.isosurface, frame_); });
-  ties_.emplace(chosen_.surface);
-  volume_ = watch_.timed("reading", [&] { return load(*source, chosen_.surface, &*ties_); });
-  const VolumeHeader& h = volume_->header();
-  tell_warnings(h, options_.volume, console_);
-  check_isosurface(chosen_, *volume_);
-  console_.detail(options_.volume.path + ": " + file_header_.format + "; meshing " + std::to_string(h.dims[0]) + " x " +
-                  std::to_string(h.dims[1]) + " x " + std::to_string(h.dims[2]) + " voxels of " + point(h.spacing()) +
-                  " mm, " + h.orientation());
-  console_.note(chosen_.sentence);
-  if (const std::string advice = advice_on(*ties_); !advice.empty()) console_.note("note: " + advice);
-}
-
 // Chooses the sizes, and says so.
 void MeshingRun::decide() {
-  const Frame frame = volume_->header().frame;
+  const Frame frame = domain_->own_frame();
   if (!options_.cell_size.empty()) cell_size_ = parse_size(options_.cell_size, "--cell-size", frame);
   if (!options_.size.empty()) {
     size_ = parse_size(options_.size, "--size", frame);
     size_sentence_ = "size " + options_.size + (size_.constant() ? " mm" : "");
   } else if (options_.tets == 0) {
-    size_ = default_size(*volume_, chosen_.surface);
-    size_sentence_ = "size " + number(size_.maximum()) + " mm, from the organ's extent and the voxels";
+    size_ = domain_->default_size();
+    size_sentence_ = "size " + number(size_.maximum()) + " mm, " + domain_->origin_of_default_size();
     console_.note(size_sentence_);
   }
-}
-
-double MeshingRun::smallest_spacing() const {
-  const Vector3 spacing = volume_->header().spacing();
-  return std::min({spacing.x, spacing.y, spacing.z});
 }
 
 SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
@@ -140,8 +100,8 @@ SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
   surface.size = size;
   surface.min_angle_degrees = options_.min_angle_degrees;
   surface.max_deviation = options_.max_deviation.value_or(std::numeric_limits<double>::infinity());
-  surface.min_ball_radius = options_.min_ball_radius.value_or(kMinBallRadiusVoxels * smallest_spacing());
-  surface.thin_ball_radius = kThinBallRadiusVoxels * smallest_spacing();
+  surface.min_ball_radius = options_.min_ball_radius.value_or(domain_->min_ball_radius(size));
+  surface.thin_ball_radius = domain_->thin_ball_radius(size);
   return surface;
 }
 
@@ -168,7 +128,7 @@ void MeshingRun::look_ahead(const Oracle& oracle) {
 
 void MeshingRun::refuse(const Oracle& oracle, const ProcessForecast& forecast) const {
   const auto factor = factor_that_fits([&](double f) { return forecast_at(oracle, f); }, *max_bytes_);
-  std::string mend = "no size would fit; --crop or --resample the volume";
+  std::string mend = "no size would fit; " + domain_->how_to_shrink();
   if (factor && size_.constant() && (!cell_size_ || cell_size_->constant())) {
     mend = "--size " + rounded_up(*factor * size_.maximum());
     if (cell_size_) mend += " with --cell-size " + rounded_up(*factor * cell_size_->maximum());
@@ -203,11 +163,8 @@ double MeshingRun::meshing_seconds() const {
 
 void MeshingRun::mesh_at(const SizeField& size) {
   size_ = size;
-  const FilteredVolume filtered = watch_.timed(
-      "components", [&] { return filter_volume(*volume_, chosen_.surface, options_.isosurface, size.minimum()); });
-  filter_report_ = filtered.report;
+  const auto oracle = domain_->make_oracle(size, watch_);
   throw_if_cancelled();
-  const auto oracle = watch_.timed("oracle", [&] { return make_isosurface_oracle(filtered.volume, chosen_.surface); });
   look_ahead(*oracle);
   throw_if_cancelled();
   mesh_ = watch_.timed("meshing", [&] { return run_mesher(*oracle, size); });
@@ -224,13 +181,13 @@ void MeshingRun::mesh_at(const SizeField& size) {
 // has too few tets.
 void MeshingRun::search_size() {
   double last_size = 0;
-  const double first_size = guess_size(options_.tets, *volume_, chosen_.surface);
+  const double first_size = domain_->guess_size(options_.tets);
   const SizeSearch found = find_size(options_.tets, first_size, [&](double size) -> std::optional<std::size_t> {
     last_size = size;
     try {
       mesh_at(size);
     } catch (const NothingToMesh&) {
-      if (options_.isosurface.min_component) throw;  // no size helps
+      if (!domain_->may_vanish()) throw;  // no size helps
       console_.note("size " + number(size) + " mm: all components are below the default of --min-component");
       return 0;
     }
@@ -251,16 +208,11 @@ void MeshingRun::mesh() {
   } else {
     search_size();
   }
-  if (const std::string text = describe(filter_report_); !text.empty()) console_.note(text);
-  if (options_.border == "open") mesh_ = open_at_border(std::get<SurfaceMesh>(mesh_), volume_->header());
-  std::visit(
-      [this](auto& mesh) {
-        mesh.info.isovalue = chosen_.surface.isovalue;
-        mesh.info.below = chosen_.surface.below;
-      },
-      mesh_);
-  frame_.apply(mesh_);
-  frame_.apply(run_report_);
+  if (const std::string text = domain_->left_out(); !text.empty()) console_.note(text);
+  domain_->finish(mesh_);
+  const FrameChange frame = domain_->frame();
+  frame.apply(mesh_);
+  frame.apply(run_report_);
 }
 
 void MeshingRun::check() {
@@ -270,7 +222,7 @@ void MeshingRun::check() {
   check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, cheap); });
   verdict_ = verdict(run_report_, check_report_);
   if (!verdict_.empty() && run_report_.stop == StopReason::kFinished) {
-    verdict_ = verdict(run_report_, check_report_, advice_on(*ties_));
+    verdict_ = verdict(run_report_, check_report_, domain_->advice());
   }
   if (!verdict_.empty()) std::visit([](auto& mesh) { mesh.info.complete = false; }, mesh_);
 }
@@ -280,24 +232,20 @@ void MeshingRun::write() {
 }
 
 Json MeshingRun::report() const {
-  return {{"volume", to_json(file_header_)},
-          {"meshed_volume", to_json(volume_->header())},
-          {"isovalue", chosen_.surface.isovalue},
-          {"isovalue_choice", chosen_.sentence},
-          {"below", chosen_.surface.below},
-          {"size", size_sentence_},
-          {"largest_size_mm", size_.maximum()},
-          {"components", to_json(filter_report_)},
-          {"forecast", forecast_ ? to_json(*forecast_) : Json()},
-          {"peak_bytes", process_memory().peak},
-          {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
-          {"run", to_json(run_report_)},
-          {"check", to_json(check_report_)},
-          {"seconds", watch_.total()},
-          {"stages", to_json(watch_.stages())},
-          {"mesher_stages", to_json(run_report_.stages)},
-          {"outputs", options_.output.paths},
-          {"verdict", verdict_.empty() ? "every promise verified" : verdict_}};
+  Json json = domain_->report();
+  json.update({{"size", size_sentence_},
+               {"largest_size_mm", size_.maximum()},
+               {"forecast", forecast_ ? to_json(*forecast_) : Json()},
+               {"peak_bytes", process_memory().peak},
+               {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
+               {"run", to_json(run_report_)},
+               {"check", to_json(check_report_)},
+               {"seconds", watch_.total()},
+               {"stages", to_json(watch_.stages())},
+               {"mesher_stages", to_json(run_report_.stages)},
+               {"outputs", options_.output.paths},
+               {"verdict", verdict_.empty() ? "every promise verified" : verdict_}});
+  return json;
 }
 
 std::string MeshingRun::summary() const {
@@ -305,8 +253,8 @@ std::string MeshingRun::summary() const {
   for (const Unmet& unmet : run_report_.unmet) {
     if (!unmet.breaks_promise) text += "left over: " + describe(unmet) + "\n";
   }
-  if (const std::string filtered = describe(filter_report_); !filtered.empty()) text += filtered + "\n";
-  text += chosen_.sentence + "; " + size_sentence_ + "; frame " + to_string(frame_.target()) + "\n";
+  if (const std::string left_out = domain_->left_out(); !left_out.empty()) text += left_out + "\n";
+  text += domain_->sentence() + "; " + size_sentence_ + "; frame " + to_string(domain_->frame().target()) + "\n";
   std::string times;
   for (const StageTime& stage : watch_.stages()) {
     if (stage.seconds >= 0.005) times += (times.empty() ? "" : ", ") + stage.stage + " " + number(stage.seconds, 3);

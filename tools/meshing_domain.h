@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "console.h"
+#include "delvox/core/mesh.h"
+#include "delvox/core/size_field.h"
+#include "delvox/oracle/oracle.h"
+#include "meshing_options.h"
+#include "patient_frame.h"
+#include "report_json.h"
+#include "stopwatch.h"
+
+namespace delvox::tools {
+
+/// What a meshing verb meshes, as the steps of a run see it. Coordinates are those of the input until the run's end.
+class MeshingDomain {
+ public:
+  virtual ~MeshingDomain() = default;
+
+  /// Reads the input, and says what was chosen where the options leave a choice.
+  virtual void read(Stopwatch& watch, const Console& console) = 0;
+
+  /// From the input's patient frame to that of the output.
+  virtual FrameChange frame() const = 0;
+  /// The frame that the input states, for size fields.
+  virtual Frame own_frame() const = 0;
+  /// A size for a run that was given none, mm, and where it comes from.
+  virtual double default_size() const = 0;
+  virtual std::string origin_of_default_size() const = 0;
+  /// A guess at the size that gives `tets` tets.
+  virtual double guess_size(std::size_t tets) const = 0;
+  /// Defaults of SurfaceCriteria for surfaces refined to `size`, mm.
+  virtual double min_ball_radius(const SizeField& size) const = 0;
+  virtual double thin_ball_radius(const SizeField& size) const = 0;
+
+  /// The oracle for a run at `size`. Throws NothingToMesh if nothing is left at that size.
+  virtual std::unique_ptr<Oracle> make_oracle(const SizeField& size, Stopwatch& watch) = 0;
+  /// Whether a larger size may have nothing to mesh where a smaller one has.
+  virtual bool may_vanish() const { return false; }
+
+  /// What the mesh, still in the input's frame, is to say of where it comes from.
+  virtual void finish(Mesh& mesh) const = 0;
+  /// What was left out of the input for the last oracle; empty if nothing was.
+  virtual std::string left_out() const { return {}; }
+  /// What to do about promises that do not hold; empty if there is nothing better than the usual.
+  virtual std::string advice() const { return {}; }
+  /// What could be given in place of the options that did not fit, "--crop or --resample the volume".
+  virtual std::string how_to_shrink() const = 0;
+  /// One line on what was meshed, for the summary; may be empty.
+  virtual std::string sentence() const = 0;
+  /// What the report says of the input.
+  virtual Json report() const = 0;
+};
+
+/// The isosurface of a volume.
+std::unique_ptr<MeshingDomain> make_volume_domain(const MeshingOptions& options);
+
+}  // namespace delvox::tools
