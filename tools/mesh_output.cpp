@@ -6,6 +6,7 @@
 #include "delvox/core/errors.h"
 #include "delvox/mesh_io/write_mesh.h"
 #include "format.h"
+#include "set_rules.h"
 #include "signals.h"
 
 namespace delvox::tools {
@@ -29,6 +30,25 @@ void add_mesh_output_options(CLI::App& app, MeshOutputOptions& options) {
       ->required()
       ->allow_extra_args(false)
       ->type_name("OUT");
+}
+
+void add_unit_option(CLI::App& app, std::string& unit) {
+  app.add_option("--unit", unit, "Unit of the coordinates written: mm or m (default: mm, or that of the mesh read)")
+      ->check(CLI::IsMember({"m", "mm"}))
+      ->type_name("UNIT");
+}
+
+void add_tet_output_options(CLI::App& app, MeshOutputOptions& options) {
+  add_set_option(app, options.sets);
+  add_unit_option(app, options.unit);
+  app.add_option("--order", options.order, "Order of the tets: 1, or 2 for mid-side nodes (default: 1, or as read)")
+      ->check(CLI::IsMember({1, 2}))
+      ->type_name("N");
+}
+
+void apply_unit(const std::string& unit, Mesh& mesh) {
+  if (unit.empty()) return;
+  std::visit([&](auto& m) { m.info.unit = unit == "m" ? LengthUnit::kMetre : LengthUnit::kMillimetre; }, mesh);
 }
 
 void check_output(const std::string& path, const fs::path& input) {
@@ -57,7 +77,8 @@ void write_mesh_outputs(const Mesh& mesh, const std::vector<std::string>& paths,
 
 std::string describe_counts(const Mesh& mesh) {
   if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
-    return plural(tets->tets.size(), "tet") + ", " + plural(tets->boundary.size(), "boundary triangle") + ", " +
+    const std::string order = tets->mid_nodes.empty() ? "" : " of second order";
+    return plural(tets->tets.size(), "tet") + order + ", " + plural(tets->boundary.size(), "boundary triangle") + ", " +
            plural(tets->points.size(), "point");
   }
   const auto& surface = std::get<SurfaceMesh>(mesh);

@@ -27,6 +27,8 @@ class MeshingDomain {
   virtual FrameChange frame() const = 0;
   /// The frame that the input states, for size fields.
   virtual Frame own_frame() const = 0;
+  /// The image that the domain is cut off by, if there is one: for sets on its border.
+  virtual std::optional<VolumeHeader> image() const { return std::nullopt; }
   /// A size for a run that was given none, mm, and where it comes from.
   virtual double default_size() const = 0;
   virtual std::string origin_of_default_size() const = 0;

@@ -62,6 +62,11 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   app.add_option("VOLUME", options.volume.path, "The scan: .nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices")
       ->required();
   add_mesh_output_options(app, options.output);
+  if (options.kind == MeshKind::kTets) {
+    add_tet_output_options(app, options.output);
+  } else {
+    add_unit_option(app, options.output.unit);
+  }
   add_isovalue_options(app, options.isosurface);
   add_size_options(app, options);
   add_shape_options(app, options);

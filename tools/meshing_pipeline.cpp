@@ -10,12 +10,14 @@
 #include "delvox/core/errors.h"
 #include "delvox/meshing/delsurf.h"
 #include "delvox/meshing/deltetsurf.h"
+#include "delvox/meshing/second_order.h"
 #include "exit_codes.h"
 #include "forecast.h"
 #include "format.h"
 #include "meshing_domain.h"
 #include "progress.h"
 #include "report_json.h"
+#include "set_rules.h"
 #include "signals.h"
 #include "size_search.h"
 #include "sizes.h"
@@ -38,6 +40,7 @@ class MeshingRun {
   void run(Json report) {
     check_mesh_outputs(options_.output.paths, options_.volume.path);
     check_output(options_.report, options_.volume.path);
+    parse_sets(options_.output.sets, nullptr, true);
     if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
     domain_->read(watch_, console_);
     decide();
@@ -52,6 +55,8 @@ class MeshingRun {
   void decide();
   void mesh();
   void search_size();
+  void curve(const Oracle& oracle);
+  void name_sets();
   void mesh_at(const SizeField& size);
   ProcessForecast forecast_at(const Oracle& oracle, double factor) const;
   void look_ahead(const Oracle& oracle);
@@ -78,6 +83,7 @@ class MeshingRun {
   Mesh mesh_;
   RunReport run_report_;
   CheckReport check_report_;
+  std::string set_fault_;
   std::string verdict_;
 };
 
@@ -169,12 +175,38 @@ void MeshingRun::mesh_at(const SizeField& size) {
   throw_if_cancelled();
   mesh_ = watch_.timed("meshing", [&] { return run_mesher(*oracle, size); });
   progress_.clear();
+  if (options_.output.order == 2) watch_.timed("second order", [&] { curve(*oracle); });
   for (const StageTime& stage : run_report_.stages) {
     console_.detail("stage " + stage.stage + ": " + number(stage.seconds, 3) + " s");
   }
   console_.detail("inserted: surface " + grouped(run_report_.surface_insertions) + ", topology " +
                   grouped(run_report_.topology_insertions) + ", interior " + grouped(run_report_.interior_insertions) +
                   "; removed " + grouped(run_report_.removals));
+}
+
+// Mid-side nodes, those of the boundary on the isosurface; what is not is told.
+void MeshingRun::curve(const Oracle& oracle) {
+  const SecondOrderReport report = make_second_order(std::get<TetMesh>(mesh_), &oracle);
+  console_.detail("mid-side nodes of the boundary: " + grouped(report.boundary_edges) + ", on the isosurface " +
+                  grouped(report.on_surface));
+  const auto tell = [&](std::size_t count, const Point3& where, const char* reason) {
+    if (count > 0) run_report_.unmet.push_back({"curved edges", count, where, reason, false});
+  };
+  tell(report.straightened, report.where_straightened, "straightened, or a tet would have turned inside out");
+  tell(report.not_found, report.where_not_found, "left straight, no surface near their middle");
+}
+
+// --set: places by name, in the output frame.
+void MeshingRun::name_sets() {
+  auto* tets = std::get_if<TetMesh>(&mesh_);
+  if (tets == nullptr || options_.output.sets.empty()) return;
+  std::optional<MeshedImage> image;
+  if (const auto header = domain_->image()) image = MeshedImage{*header, domain_->frame()};
+  set_fault_ = apply_sets(*tets, parse_sets(options_.output.sets, image ? &*image : nullptr));
+  for (const MeshSet& set : tets->sets) {
+    console_.note("set " + set.name + ": " + plural(set.nodes.size(), "node") + ", " + plural(set.tets.size(), "tet") +
+                  ", " + plural(set.faces.size(), "boundary face"));
+  }
 }
 
 // --tets: meshes at sizes that close in on the wanted number. A size whose default --min-component takes everything out
@@ -213,6 +245,8 @@ void MeshingRun::mesh() {
   const FrameChange frame = domain_->frame();
   frame.apply(mesh_);
   frame.apply(run_report_);
+  apply_unit(options_.output.unit, mesh_);
+  name_sets();
 }
 
 void MeshingRun::check() {
@@ -225,6 +259,7 @@ void MeshingRun::check() {
     verdict_ = verdict(run_report_, check_report_, domain_->advice());
   }
   if (!verdict_.empty()) std::visit([](auto& mesh) { mesh.info.complete = false; }, mesh_);
+  if (verdict_.empty()) verdict_ = set_fault_;
 }
 
 void MeshingRun::write() {
@@ -238,6 +273,7 @@ Json MeshingRun::report() const {
                {"forecast", forecast_ ? to_json(*forecast_) : Json()},
                {"peak_bytes", process_memory().peak},
                {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
+               {"sets", sets_json(mesh_)},
                {"run", to_json(run_report_)},
                {"check", to_json(check_report_)},
                {"seconds", watch_.total()},

@@ -155,7 +155,8 @@ Json to_json(const Forecast& forecast) {
 Json to_json(const MeshInfo& info) {
   return {{"frame", to_string(info.frame)},       {"isovalue", optional_json(info.isovalue)},
           {"below", info.below},                  {"open_border", info.open_border},
-          {"complete", info.complete},            {"promises", to_json(info.promises)}};
+          {"complete", info.complete},            {"unit", info.unit == LengthUnit::kMetre ? "m" : "mm"},
+          {"promises", to_json(info.promises)}};
 }
 
 Json to_json(const RunReport& report) {
@@ -188,6 +189,19 @@ Json to_json(const CheckReport& report) {
 Json to_json(const std::vector<StageTime>& stages) {
   Json json = Json::array();
   for (const StageTime& stage : stages) json.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+  return json;
+}
+
+Json sets_json(const Mesh& mesh) {
+  Json json = Json::array();
+  if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
+    for (const MeshSet& set : tets->sets) {
+      json.push_back({{"name", set.name},
+                      {"nodes", set.nodes.size()},
+                      {"tets", set.tets.size()},
+                      {"faces", set.faces.size()}});
+    }
+  }
   return json;
 }
 

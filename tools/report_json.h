@@ -29,6 +29,9 @@ Json to_json(const RunReport& report);
 Json to_json(const CheckReport& report);
 Json to_json(const std::vector<StageTime>& stages);
 
+/// Name and extent of each set of a mesh.
+Json sets_json(const Mesh& mesh);
+
 /// JSON text, indented, with a line end; bytes that are not UTF-8 (in file names) are replaced.
 std::string text_of(const Json& json);
 

@@ -1,9 +1,13 @@
 #include <CLI/CLI.hpp>
 
 #include "console.h"
+#include "delvox/core/errors.h"
 #include "delvox/mesh_io/read_mesh.h"
+#include "delvox/meshing/second_order.h"
+#include "exit_codes.h"
 #include "format.h"
 #include "mesh_output.h"
+#include "set_rules.h"
 #include "thread_limit.h"
 #include "verbs.h"
 
@@ -16,15 +20,27 @@ void run_convert(const Verb& verb, const Arguments& arguments) {
   ConsoleOptions console_options;
   app.add_option("MESH", path, "Mesh to read: .vtu .vtk .stl .ply .off .obj .mesh .msh .inp")->required();
   add_mesh_output_options(app, output);
+  add_tet_output_options(app, output);
   const ThreadLimit threads(app);
   add_console_options(app, console_options, JsonFlag::kAbsent);
   if (!parse_arguments(app, arguments)) return;
 
   check_mesh_outputs(output.paths, path);
+  const std::vector<NamedRule> rules = parse_sets(output.sets, nullptr);
   const Console console(console_options);
-  const MeshFile file = read_mesh(path);
+  MeshFile file = read_mesh(path);
   console.note(path + ": " + file.format + ", " + describe_counts(file.mesh));
+  apply_unit(output.unit, file.mesh);
+  std::string fault;
+  if (auto* tets = std::get_if<TetMesh>(&file.mesh)) {
+    if (output.order == 1 && !tets->mid_nodes.empty()) make_first_order(*tets);
+    if (output.order == 2 && tets->mid_nodes.empty()) make_second_order(*tets, nullptr);
+    fault = apply_sets(*tets, rules);
+  } else if (!rules.empty() || output.order != 0) {
+    throw OptionError(path + ": holds no tets; --set and --order are for tets");
+  }
   write_mesh_outputs(file.mesh, output.paths, console);
+  if (!fault.empty()) throw PromiseBroken(output.paths.front() + ": written, but " + fault);
 }
 
 }  // namespace delvox::tools

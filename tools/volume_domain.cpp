@@ -46,6 +46,7 @@ class VolumeDomain final : public MeshingDomain {
 
   FrameChange frame() const override { return frame_; }
   Frame own_frame() const override { return volume_->header().frame; }
+  std::optional<VolumeHeader> image() const override { return volume_->header(); }
   double default_size() const override { return tools::default_size(*volume_, chosen_.surface); }
   std::string origin_of_default_size() const override { return "from the organ's extent and the voxels"; }
   double guess_size(std::size_t tets) const override { return tools::guess_size(tets, *volume_, chosen_.surface); }

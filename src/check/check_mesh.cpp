@@ -8,6 +8,7 @@
 #include "check/element_quality.h"
 #include "check/point_checks.h"
 #include "check/report_builder.h"
+#include "check/second_order_checks.h"
 #include "check/surface_topology.h"
 #include "check/tet_topology.h"
 #include "check/voxel_checks.h"
@@ -34,14 +35,16 @@ Tally invalid_indices(const std::vector<Cell>& cells, std::size_t point_count) {
 }
 
 template <class Cell>
-Tally orphan_points(const std::vector<Point3>& points, const std::vector<Cell>& cells) {
-  std::vector<std::uint8_t> used(points.size(), 0);
+void mark_used(const std::vector<Cell>& cells, std::vector<std::uint8_t>& used) {
   for_each_chunk(cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       // Several threads may say the same of one point.
       for (std::uint32_t v : cells[i]) std::atomic_ref<std::uint8_t>(used[v]).store(1, std::memory_order_relaxed);
     }
   });
+}
+
+Tally orphan_points(const std::vector<Point3>& points, const std::vector<std::uint8_t>& used) {
   Tally orphans;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (used[i] == 0) orphans.add(points[i]);
@@ -90,6 +93,8 @@ class MeshChecker {
                                      : invalid_indices(surface_->triangles, points_.size());
     if (tets_ != nullptr) {
       invalid.count += invalid_indices(tets_->boundary, points_.size()).count;
+      invalid.count += invalid_indices(tets_->mid_nodes, points_.size()).count;
+      if (!tets_->mid_nodes.empty() && tets_->mid_nodes.size() != tets_->tets.size()) invalid.add({});
       if (!tets_->regions.empty() && tets_->regions.size() != tets_->tets.size()) invalid.add({});
     }
     builder_.count("not empty", nothing);
@@ -110,8 +115,14 @@ class MeshChecker {
       builder_.count("points apart at the format's precision",
                      check::duplicate_points(points_, precision_.displacement_mm));
     }
-    builder_.count("no orphan points", tets_ != nullptr ? orphan_points(points_, tets_->tets)
-                                                        : orphan_points(points_, surface_->triangles));
+    std::vector<std::uint8_t> used(points_.size(), 0);
+    if (tets_ != nullptr) {
+      mark_used(tets_->tets, used);
+      mark_used(tets_->mid_nodes, used);
+    } else {
+      mark_used(surface_->triangles, used);
+    }
+    builder_.count("no orphan points", orphan_points(points_, used));
     report_.statistics.points = points_.size();
   }
 
@@ -127,8 +138,19 @@ class MeshChecker {
     } else {
       builder_.count("boundary list", check::boundary_list_faults(*tets_, tet_topology_));
     }
+    if (!tets_->mid_nodes.empty()) check_second_order();
     report_.statistics.tets = tets_->tets.size();
     report_.statistics.tet_components = tet_topology_.components;
+  }
+
+  void check_second_order() {
+    check::SecondOrderQuality quality = check::measure_second_order(*tets_);
+    builder_.count("one mid-side node for each edge", quality.not_shared);
+    builder_.bounded("Jacobian", quality.jacobian, 0.0, "of the greatest in the tet",
+                     "at nodes, Gauss points and centroid");
+    curved_nodes_ = std::move(quality.on_boundary);
+    if (tets_->on_surface.size() != points_.size()) return;
+    std::erase_if(curved_nodes_, [&](std::uint32_t v) { return tets_->on_surface[v] == 0; });
   }
 
   void check_surface_topology() {
@@ -194,7 +216,8 @@ class MeshChecker {
                                     bounds_,
                                     precision_,
                                     options_.open_border.value_or(info_.open_border),
-                                    info_.isovalue.has_value()};
+                                    info_.isovalue.has_value(),
+                                    curved_nodes_};
     check::check_against_voxels(mesh, surface, options_, builder_, report_);
   }
 
@@ -209,6 +232,7 @@ class MeshChecker {
   Precision precision_;
   check::TetQuality quality_;
   check::TetTopology tet_topology_;
+  std::vector<std::uint32_t> curved_nodes_;  ///< mid-side nodes that the mesh says are on the surface, or may be
   check::SurfaceTopology topology_;
   std::span<const Triangle> triangles_;
 };

@@ -37,15 +37,15 @@ class VoxelChecker {
     const double tolerance = bound * kSlack + std::sqrt(3.0) * voxels_per_mm_ * mesh_.precision.displacement_mm;
     Extreme worst;
     std::vector<bool> seen(mesh_.points.size(), false);
-    for (const Triangle& t : mesh_.triangles) {
-      for (std::uint32_t v : t) {
-        if (seen[v]) continue;
-        seen[v] = true;
-        const double distance = node_distance_voxels(mesh_.points[v], tolerance);
-        note_largest(worst, distance, mesh_.points[v]);
-        if (held && !(distance <= tolerance)) ++worst.violations;
-      }
-    }
+    const auto check_node = [&](std::uint32_t v) {
+      if (seen[v]) return;
+      seen[v] = true;
+      const double distance = node_distance_voxels(mesh_.points[v], tolerance);
+      note_largest(worst, distance, mesh_.points[v]);
+      if (held && !(distance <= tolerance)) ++worst.violations;
+    };
+    for (const Triangle& t : mesh_.triangles) std::for_each(t.begin(), t.end(), check_node);
+    std::for_each(mesh_.mid_nodes.begin(), mesh_.mid_nodes.end(), check_node);
     builder.bounded("nodes on the isosurface", worst, held ? std::optional<double>(bound) : std::nullopt, "voxel");
   }
 

@@ -17,6 +17,7 @@ struct SurfaceOfMesh {
   Precision precision;
   bool open_border;
   bool lies_on_isosurface;  ///< the mesh says that its nodes are on it
+  std::span<const std::uint32_t> mid_nodes;  ///< mid-side nodes that are to be on it too
 };
 
 /// The checks that need the volume: nodes on the isosurface, surface balls, rim on the border, topology, distances.

@@ -21,28 +21,45 @@ Face make_face(const Tet& tet, std::uint32_t tet_index, int face) {
 
 }  // namespace
 
-std::vector<Triangle> boundary_of(const std::vector<Tet>& tets) {
+Triangle face_corners(const std::vector<Tet>& tets, TetFace face) {
+  const Tet& tet = tets[face.tet];
+  const auto& corners = kTetFaces[face.face];
+  return {tet[corners[0]], tet[corners[1]], tet[corners[2]]};
+}
+
+std::array<std::uint32_t, 3> face_mid_nodes(const MidNodes& of_tet, int face) {
+  std::array<std::uint32_t, 3> result{};
+  for (int i = 0; i < 3; ++i) {
+    const int a = kTetFaces[face][i], b = kTetFaces[face][(i + 1) % 3];
+    for (int e = 0; e < 6; ++e) {
+      const auto& edge = kTetEdges[e];
+      if ((edge[0] == a && edge[1] == b) || (edge[0] == b && edge[1] == a)) result[i] = of_tet[e];
+    }
+  }
+  return result;
+}
+
+std::vector<TetFace> boundary_faces(const std::vector<Tet>& tets) {
   std::vector<Face> faces;
   faces.reserve(4 * tets.size());
   for (std::uint32_t t = 0; t < tets.size(); ++t) {
     for (int i = 0; i < 4; ++i) faces.push_back(make_face(tets[t], t, i));
   }
   std::sort(faces.begin(), faces.end(), [](const Face& a, const Face& b) { return a.sorted < b.sorted; });
-  std::vector<Face> single;
+  std::vector<TetFace> single;
   for (std::size_t i = 0; i < faces.size();) {
     std::size_t end = i + 1;
     while (end < faces.size() && faces[end].sorted == faces[i].sorted) ++end;
-    if (end == i + 1) single.push_back(faces[i]);
+    if (end == i + 1) single.push_back({faces[i].tet, faces[i].index});
     i = end;
   }
-  std::sort(single.begin(), single.end(),
-            [](const Face& a, const Face& b) { return a.tet != b.tet ? a.tet < b.tet : a.index < b.index; });
+  std::sort(single.begin(), single.end());
+  return single;
+}
+
+std::vector<Triangle> boundary_of(const std::vector<Tet>& tets) {
   std::vector<Triangle> result;
-  result.reserve(single.size());
-  for (const Face& f : single) {
-    const Tet& tet = tets[f.tet];
-    result.push_back({tet[kTetFaces[f.index][0]], tet[kTetFaces[f.index][1]], tet[kTetFaces[f.index][2]]});
-  }
+  for (TetFace face : boundary_faces(tets)) result.push_back(face_corners(tets, face));
   return result;
 }
 

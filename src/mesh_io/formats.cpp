@@ -60,8 +60,17 @@ const Format& format_to_write(const std::filesystem::path& path) {
   return *format;
 }
 
+/// The points in the unit that the file is to have; `scaled` keeps them if they differ.
+std::span<const Point3> points_in_unit(const std::vector<Point3>& points, LengthUnit unit, std::vector<Point3>& scaled) {
+  if (unit == LengthUnit::kMillimetre) return points;
+  scaled.reserve(points.size());
+  for (const Point3& p : points) scaled.push_back({p.x / kMmPerMetre, p.y / kMmPerMetre, p.z / kMmPerMetre});
+  return scaled;
+}
+
 void write_surface(const SurfaceMesh& mesh, const Format& format, Out& out) {
-  format.write({mesh.points, mesh.triangles, {}, {}, {}, mesh.info, false}, out);
+  std::vector<Point3> scaled;
+  format.write({points_in_unit(mesh.points, mesh.info.unit, scaled), mesh.triangles, {}, {}, {}, mesh.info, false}, out);
 }
 
 void write_tets(const TetMesh& mesh, const Format& format, Out& out) {
@@ -69,11 +78,19 @@ void write_tets(const TetMesh& mesh, const Format& format, Out& out) {
     write_surface(boundary_surface(mesh), format, out);
     return;
   }
+  std::vector<TetFace> faces;
   std::vector<Triangle> computed;
-  const bool lacking = format.holds == Holds::kTetsAndTheirBoundary && mesh.boundary.empty();
-  if (lacking) computed = boundary_of(mesh.tets);
+  const bool needs_faces = mesh.boundary.empty() || !mesh.sets.empty() || !mesh.mid_nodes.empty();
+  const bool lacking = format.holds == Holds::kTetsAndTheirBoundary && needs_faces;
+  if (lacking) {
+    faces = boundary_faces(mesh.tets);
+    for (TetFace face : faces) computed.push_back(face_corners(mesh.tets, face));
+  }
   const std::vector<Triangle>& boundary = lacking ? computed : mesh.boundary;
-  format.write({mesh.points, boundary, mesh.tets, mesh.regions, mesh.on_surface, mesh.info, true}, out);
+  std::vector<Point3> scaled;
+  format.write({points_in_unit(mesh.points, mesh.info.unit, scaled), boundary, mesh.tets, mesh.regions, mesh.on_surface,
+                mesh.info, true, faces, mesh.mid_nodes, mesh.sets, mesh.materials},
+               out);
 }
 
 }  // namespace
@@ -99,7 +116,8 @@ MeshFile read_mesh(const std::filesystem::path& path) {
   if (format == nullptr) throw InputError(unknown_extension(path));
   const Source source = load_source(path);
   RawMesh raw = format->read(source);
-  const double coordinate_error = raw.coordinate_error;
+  double coordinate_error = raw.coordinate_error;
+  if (raw.info.unit == LengthUnit::kMetre) coordinate_error = std::max(coordinate_error, 4e-16);
   return {std::move(raw).finish(source), format->name, coordinate_error};
 }
 

@@ -5,11 +5,14 @@
 
 #include "mesh_io/formats.h"
 #include "mesh_io/header_comment.h"
+#include "mesh_io/node_order.h"
 #include "mesh_io/number_type.h"
 #include "mesh_io/numbered_mesh.h"
 
 namespace delvox::mesh_io {
 namespace {
+
+constexpr std::string_view kBoundaryGroup = "boundary";  // what write_gmsh41 calls all of it
 
 struct ElementType {
   CellKind kind;
@@ -48,6 +51,8 @@ class Reader {
       if (!section.starts_with('$')) continue;
       if (section == "$MeshFormat") {
         read_format();
+      } else if (section == "$PhysicalNames") {
+        read_names();
       } else if (section == "$Comments") {
         if (!cursor_.at_end()) read_header_comment(cursor_.line(), mesh_.info);
       } else if (version_ == 0) {
@@ -78,6 +83,17 @@ class Reader {
     cursor_.line();
     const std::string_view one = cursor_.raw(4, "header");
     order_ = load<std::int32_t>(one.data(), std::endian::little) == 1 ? std::endian::little : std::endian::big;
+  }
+
+  void read_names() {
+    const std::size_t names = cursor_.count("physical names", 5);
+    for (std::size_t i = 0; i < names; ++i) {
+      const std::int64_t dimension = cursor_.integer(), group = cursor_.integer();
+      const std::string_view name = trimmed(cursor_.line());
+      if (name.size() > 2 && name.front() == '"' && name.back() == '"') {
+        names_[{dimension, group}] = name.substr(1, name.size() - 2);
+      }
+    }
   }
 
   void skip_to_end_of(const std::string& section) {
@@ -126,7 +142,11 @@ class Reader {
     const std::size_t groups = count("physical groups");
     for (std::size_t i = 0; i < groups; ++i) {
       const std::int64_t group = small();
-      if (dimension == 3 && i == 0) region_of_volume_[tag] = group;
+      if (dimension == 3 && i == 0) {
+        region_of_volume_[tag] = group;
+      } else if (const auto name = names_.find({dimension, group}); dimension >= 2 && name != names_.end()) {
+        if (name->second != kBoundaryGroup) sets_of_entity_[{dimension, tag}].push_back(name->second);
+      }
     }
     if (dimension == 0) return;
     const std::size_t bounding = count("bounding entities");
@@ -162,10 +182,13 @@ class Reader {
       const std::int64_t region = dimension == 3 && group != region_of_volume_.end() ? group->second : entity;
       nodes.resize(type.nodes);
       const std::size_t elements = checked(large(), 1 + type.nodes, 8, "elements");
+      const auto sets = sets_of_entity_.find({dimension, entity});
       for (std::size_t i = 0; i < elements; ++i) {
         const std::int64_t number = large();
         for (std::int64_t& node : nodes) node = large();
         add_element(number, type, nodes, region);
+        if (sets == sets_of_entity_.end()) continue;
+        for (const std::string& set : sets->second) numbered_.add_elements_to_set(set, {number, number, 1});
       }
     }
   }
@@ -225,7 +248,14 @@ class Reader {
 
   void add_element(std::int64_t number, const ElementType& type, std::span<const std::int64_t> nodes,
                    std::int64_t region) {
-    if (type.kind != CellKind::kIgnored) numbered_.add_element(number, type.kind, nodes, region);
+    if (type.kind == CellKind::kIgnored) return;
+    if (type.kind != CellKind::kTet || nodes.size() != kGmshOrder.tet10.size()) {
+      numbered_.add_element(number, type.kind, nodes, region);
+      return;
+    }
+    std::array<std::int64_t, 10> own{};
+    for (std::size_t i = 0; i < own.size(); ++i) own[kGmshOrder.tet10[i]] = nodes[i];
+    numbered_.add_element(number, type.kind, own, region);
   }
 
   const Source& source_;
@@ -236,6 +266,8 @@ class Reader {
   bool binary_ = false;
   std::endian order_ = std::endian::little;
   std::map<std::int64_t, std::int64_t> region_of_volume_;  ///< its first physical group
+  std::map<std::pair<std::int64_t, std::int64_t>, std::string> names_;  ///< of physical groups, by dimension and number
+  std::map<std::pair<std::int64_t, std::int64_t>, std::vector<std::string>> sets_of_entity_;
   std::vector<std::int64_t> nodes_;
 };
 

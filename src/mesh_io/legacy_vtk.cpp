@@ -14,21 +14,25 @@ namespace {
 
 constexpr auto kOrder = std::endian::big;
 
-template <class Cell>
-void write_cells(const char* keyword, std::span<const Cell> cells, Out& out) {
-  constexpr std::int32_t kCorners = std::tuple_size_v<Cell>;
-  out.put(keyword, ' ', cells.size(), ' ', cells.size() * (kCorners + 1), '\n');
-  for (const Cell& cell : cells) {
-    out.binary(kCorners, kOrder);
-    for (std::uint32_t node : cell) out.binary(node, kOrder);
+void write_polygons(const MeshView& mesh, Out& out) {
+  out.put("POLYGONS ", mesh.triangles.size(), ' ', mesh.triangles.size() * 4, '\n');
+  for (const Triangle& triangle : mesh.triangles) {
+    out.binary(std::int32_t{3}, kOrder);
+    for (std::uint32_t node : triangle) out.binary(node, kOrder);
   }
   out.put('\n');
 }
 
 void write_tet_cells(const MeshView& mesh, Out& out) {
-  write_cells("CELLS", mesh.tets, out);
-  out.put("CELL_TYPES ", mesh.tets.size(), '\n');
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.binary(std::int32_t{kVtkTet}, kOrder);
+  const std::size_t nodes = mesh.second_order() ? 10 : 4;
+  out.put("CELLS ", mesh.tets.size(), ' ', mesh.tets.size() * (nodes + 1), '\n');
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    out.binary(static_cast<std::int32_t>(nodes), kOrder);
+    for (std::uint32_t node : mesh.tet_nodes(t)) out.binary(node, kOrder);
+  }
+  out.put("\nCELL_TYPES ", mesh.tets.size(), '\n');
+  const std::int32_t type = mesh.second_order() ? kVtkQuadraticTet : kVtkTet;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.binary(type, kOrder);
   out.put("\nCELL_DATA ", mesh.tets.size(), "\nSCALARS ", kRegionArray, " int 1\nLOOKUP_TABLE default\n");
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) out.binary(std::int32_t{mesh.region(t)}, kOrder);
   out.put('\n');
@@ -333,7 +337,7 @@ void write_legacy_vtk(const MeshView& mesh, Out& out) {
   if (mesh.is_tet_mesh) {
     write_tet_cells(mesh, out);
   } else {
-    write_cells("POLYGONS", mesh.triangles, out);
+    write_polygons(mesh, out);
   }
 }
 

@@ -72,14 +72,16 @@ void write_medit(const MeshView& mesh, Out& out) {
   out.put("MeshVersionFormatted 2\n# ", header_comment(mesh.info), "\nDimension 3\n");
   out.put("\nVertices\n", mesh.points.size(), '\n');
   for (const Point3& p : mesh.points) out.put(p.x, ' ', p.y, ' ', p.z, " 0\n");
-  out.put("\nTriangles\n", mesh.triangles.size(), '\n');
-  for (const Triangle& t : mesh.triangles) out.put(t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, " 1\n");
+  const auto put_cell = [&](const CellNodes& nodes, Label reference) {
+    for (std::uint32_t node : nodes) out.put(node + 1, ' ');
+    out.put(reference, '\n');
+  };
+  const char* suffix = mesh.second_order() ? "P2" : "";
+  out.put("\nTriangles", suffix, '\n', mesh.triangles.size(), '\n');
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) put_cell(mesh.triangle_nodes(i), 1);
   if (mesh.is_tet_mesh) {
-    out.put("\nTetrahedra\n", mesh.tets.size(), '\n');
-    for (std::size_t i = 0; i < mesh.tets.size(); ++i) {
-      const Tet& t = mesh.tets[i];
-      out.put(t[0] + 1, ' ', t[1] + 1, ' ', t[2] + 1, ' ', t[3] + 1, ' ', mesh.region(i), '\n');
-    }
+    out.put("\nTetrahedra", suffix, '\n', mesh.tets.size(), '\n');
+    for (std::size_t i = 0; i < mesh.tets.size(); ++i) put_cell(mesh.tet_nodes(i), mesh.region(i));
   }
   out.put("\nEnd\n");
 }

@@ -50,11 +50,60 @@ void NumberedMesh::move_into(const Source& source, RawMesh& mesh) {
     std::stable_sort(elements_.begin(), elements_.end(), by_number);
   }
   for (std::int64_t& node : element_nodes_) node = index_of(node);
+  std::vector<std::int64_t> tet_of;  // of each element, or -1
   for (const Element& element : elements_) {
     const auto nodes = std::span(element_nodes_).subspan(element.first_node, element.node_count);
+    const std::size_t tets = mesh.tets.size();
     mesh.add_cell(source, element.kind, nodes, "element", element.region);
+    tet_of.push_back(mesh.tets.size() > tets ? static_cast<std::int64_t>(tets) : -1);
   }
   mesh.points = std::move(points_);
+  fill_sets(source, tet_of, mesh);
+}
+
+void NumberedMesh::fill_sets(const Source& source, const std::vector<std::int64_t>& tet_of, RawMesh& mesh) const {
+  for (const std::string& name : set_names_) mesh.set(name);
+  std::size_t budget = 64 * (source.bytes.size() + 1);  // steps: ranges may say far more than there is
+  const auto spend = [&] {
+    if (budget-- == 0) source.fail("its sets overlap beyond reason");
+  };
+  const auto in_range = [](const NumberRange& range, std::int64_t number) {
+    const std::uint64_t offset = static_cast<std::uint64_t>(number) - static_cast<std::uint64_t>(range.first);
+    return offset % static_cast<std::uint64_t>(range.step) == 0;
+  };
+  for (const auto& [name, range] : node_sets_) {
+    RawSet& set = mesh.set(name);
+    for (auto at = std::lower_bound(numbers_.begin(), numbers_.end(), range.first);
+         at != numbers_.end() && *at <= range.last; ++at) {
+      spend();
+      if (in_range(range, *at)) set.nodes.push_back(static_cast<std::uint32_t>(at - numbers_.begin()));
+    }
+  }
+  const auto first_element = [&](std::int64_t number) {
+    return std::lower_bound(elements_.begin(), elements_.end(), number,
+                            [](const Element& element, std::int64_t wanted) { return element.number < wanted; });
+  };
+  for (const auto& [name, range] : element_sets_) {
+    RawSet& set = mesh.set(name);
+    for (auto at = first_element(range.first); at != elements_.end() && at->number <= range.last; ++at) {
+      spend();
+      if (!in_range(range, at->number)) continue;
+      const std::int64_t tet = tet_of[static_cast<std::size_t>(at - elements_.begin())];
+      const auto* nodes = &element_nodes_[at->first_node];
+      if (tet >= 0) {
+        set.tets.push_back(static_cast<std::uint32_t>(tet));
+      } else if (at->kind == CellKind::kTriangle) {
+        set.triangles.push_back({static_cast<std::uint32_t>(nodes[0]), static_cast<std::uint32_t>(nodes[1]),
+                                 static_cast<std::uint32_t>(nodes[2])});
+      }
+    }
+  }
+  for (const FaceOfSet& member : face_sets_) {
+    const auto at = first_element(member.element);
+    if (at == elements_.end() || at->number != member.element) continue;
+    const std::int64_t tet = tet_of[static_cast<std::size_t>(at - elements_.begin())];
+    if (tet >= 0) mesh.set(member.set).faces.push_back({static_cast<std::uint32_t>(tet), member.face});
+  }
 }
 
 }  // namespace delvox::mesh_io

@@ -2,12 +2,18 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "mesh_io/raw_mesh.h"
 
 namespace delvox::mesh_io {
+
+/// Numbers first, first + step, ... up to last, as members of a set; one number is a range too.
+struct NumberRange {
+  std::int64_t first, last, step;
+};
 
 /// Nodes and elements that carry numbers, in files that may list them in any order.
 class NumberedMesh {
@@ -17,6 +23,21 @@ class NumberedMesh {
     points_.push_back(point);
   }
   void add_element(std::int64_t number, CellKind kind, std::span<const std::int64_t> nodes, std::int64_t region);
+
+  /// Members of a set that may be listed before what they name. Numbers that nothing carries are passed over.
+  void add_nodes_to_set(const std::string& set, NumberRange numbers) {
+    mention(set);
+    node_sets_.emplace_back(set, numbers);
+  }
+  void add_elements_to_set(const std::string& set, NumberRange numbers) {
+    mention(set);
+    element_sets_.emplace_back(set, numbers);
+  }
+  /// `face`: of kTetFaces.
+  void add_face_to_set(const std::string& set, std::int64_t element, std::uint8_t face) {
+    mention(set);
+    face_sets_.push_back({set, element, face});
+  }
 
   /// Puts nodes and elements into `mesh` by rising number, which gives our own files back the order they had.
   void move_into(const Source& source, RawMesh& mesh);
@@ -28,12 +49,24 @@ class NumberedMesh {
     std::size_t first_node, node_count;  ///< in element_nodes_
     std::int64_t region;
   };
+  struct FaceOfSet {
+    std::string set;
+    std::int64_t element;
+    std::uint8_t face;
+  };
   void sort_nodes();
+  void mention(const std::string& set) {
+    if (set_names_.empty() || set_names_.back() != set) set_names_.push_back(set);
+  }
+  void fill_sets(const Source& source, const std::vector<std::int64_t>& tet_of, RawMesh& mesh) const;
 
   std::vector<std::int64_t> numbers_;
   std::vector<Point3> points_;
   std::vector<Element> elements_;
   std::vector<std::int64_t> element_nodes_;
+  std::vector<std::pair<std::string, NumberRange>> node_sets_, element_sets_;
+  std::vector<FaceOfSet> face_sets_;
+  std::vector<std::string> set_names_;  ///< as they were mentioned
 };
 
 }  // namespace delvox::mesh_io

@@ -1,6 +1,8 @@
 #include "mesh_io/raw_mesh.h"
 
+#include <algorithm>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -8,6 +10,8 @@
 
 namespace delvox::mesh_io {
 namespace {
+
+constexpr std::uint32_t kDropped = std::numeric_limits<std::uint32_t>::max();
 
 std::uint32_t as_index(const Source& source, std::int64_t node) {
   if (node < 0 || node >= std::numeric_limits<std::uint32_t>::max()) {
@@ -47,6 +51,7 @@ void RawMesh::add_cell(const Source& source, CellKind kind, std::span<const std:
       need(4);
       tets.push_back({node(0), node(1), node(2), node(3)});
       mark_mid_nodes(4);
+      if (nodes.size() == 10) mid_nodes.push_back({node(4), node(5), node(6), node(7), node(8), node(9)});
       break;
     case CellKind::kPolygon: {
       need(3);
@@ -93,18 +98,24 @@ void RawMesh::triangulate_polygons(const Source& source) {
   }
 }
 
-/// Nodes that only higher-order cells used would stay behind as orphans: our cells have corners alone.
-void RawMesh::drop_mid_nodes() {
-  if (mid_nodes_.empty()) return;
-  constexpr std::uint32_t kDropped = std::numeric_limits<std::uint32_t>::max();
+RawSet& RawMesh::set(const std::string& name) {
+  const auto [entry, is_new] = set_index_.try_emplace(name, sets.size());
+  if (is_new) sets.emplace_back(name, RawSet{});
+  return sets[entry->second].second;
+}
+
+/// Nodes that only cells without a place for them used would stay behind as orphans. Returns the new index of each.
+std::vector<std::uint32_t> RawMesh::drop_mid_nodes() {
   std::vector<std::uint32_t> renumbered(points.size(), 0);
   for (std::uint32_t node : mid_nodes_) renumbered[node] = kDropped;
-  for (const Tet& tet : tets) {
-    for (std::uint32_t node : tet) renumbered[node] = 0;
-  }
-  for (const Triangle& triangle : triangles) {
-    for (std::uint32_t node : triangle) renumbered[node] = 0;
-  }
+  const auto keep = [&](const auto& cells) {
+    for (const auto& cell : cells) {
+      for (std::uint32_t node : cell) renumbered[node] = 0;
+    }
+  };
+  keep(tets);
+  keep(triangles);
+  keep(mid_nodes);
   std::uint32_t kept = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (renumbered[i] == kDropped) continue;
@@ -114,12 +125,52 @@ void RawMesh::drop_mid_nodes() {
   }
   points.resize(kept);
   if (!on_surface.empty()) on_surface.resize(kept);
-  for (Tet& tet : tets) {
-    for (std::uint32_t& node : tet) node = renumbered[node];
+  const auto renumber = [&](auto& cells) {
+    for (auto& cell : cells) {
+      for (std::uint32_t& node : cell) node = renumbered[node];
+    }
+  };
+  renumber(tets);
+  renumber(triangles);
+  renumber(mid_nodes);
+  return renumbered;
+}
+
+std::vector<MeshSet> RawMesh::finished_sets(const Source& source, const std::vector<std::uint32_t>& renumbered) const {
+  std::map<Triangle, TetFace> face_of;
+  const auto sorted = [](Triangle t) {
+    std::sort(t.begin(), t.end());
+    return t;
+  };
+  const bool by_corners = std::any_of(sets.begin(), sets.end(), [](const auto& s) { return !s.second.triangles.empty(); });
+  if (by_corners) {
+    for (TetFace face : boundary_faces(tets)) face_of.emplace(sorted(face_corners(tets, face)), face);
   }
-  for (Triangle& triangle : triangles) {
-    for (std::uint32_t& node : triangle) node = renumbered[node];
+  std::vector<MeshSet> result;
+  for (const auto& [name, raw] : sets) {
+    MeshSet set{name, {}, raw.tets, raw.faces};
+    for (std::uint32_t node : raw.nodes) {
+      if (node >= renumbered.size()) source.fail("set " + in_quotes(name) + " names a node that there is not");
+      if (renumbered[node] != kDropped) set.nodes.push_back(renumbered[node]);
+    }
+    for (const Triangle& t : raw.triangles) {
+      if (*std::max_element(t.begin(), t.end()) >= renumbered.size()) continue;
+      const auto found = face_of.find(sorted({renumbered[t[0]], renumbered[t[1]], renumbered[t[2]]}));
+      if (found != face_of.end()) set.faces.push_back(found->second);
+    }
+    const auto tidy = [](auto& list) {
+      std::sort(list.begin(), list.end());
+      list.erase(std::unique(list.begin(), list.end()), list.end());
+    };
+    tidy(set.nodes);
+    tidy(set.tets);
+    tidy(set.faces);
+    const bool beyond = (!set.tets.empty() && set.tets.back() >= tets.size()) ||
+                        (!set.faces.empty() && set.faces.back().tet >= tets.size());
+    if (beyond) source.fail("set " + in_quotes(name) + " names a tet that there is not");
+    if (!set.nodes.empty() || !set.tets.empty() || !set.faces.empty()) result.push_back(std::move(set));
   }
+  return result;
 }
 
 Mesh RawMesh::finish(const Source& source) && {
@@ -138,10 +189,22 @@ Mesh RawMesh::finish(const Source& source) && {
   }
   check_cell(source, mid_nodes_, points.size());
   if (!on_surface.empty() && on_surface.size() != points.size()) source.fail("on_surface does not match its points");
-  drop_mid_nodes();
+  if (mid_nodes.size() != tets.size()) mid_nodes.clear();
+  for (const MidNodes& middles : mid_nodes) check_cell(source, middles, points.size());
+  const std::vector<std::uint32_t> renumbered = drop_mid_nodes();
+  if (info.unit == LengthUnit::kMetre) {
+    for (Point3& p : points) p = kMmPerMetre * p;
+  }
   if (tets.empty()) return SurfaceMesh{std::move(points), std::move(triangles), info};
   if (!regions.empty() && regions.size() != tets.size()) source.fail("region does not match its tets");
-  TetMesh mesh{std::move(points), std::move(tets), std::move(regions), {}, std::move(on_surface), info};
+  TetMesh mesh;
+  mesh.sets = finished_sets(source, renumbered);
+  mesh.points = std::move(points);
+  mesh.tets = std::move(tets);
+  mesh.regions = std::move(regions);
+  mesh.on_surface = std::move(on_surface);
+  mesh.info = info;
+  mesh.mid_nodes = std::move(mid_nodes);
   mesh.boundary = boundary_of(mesh.tets);
   return mesh;
 }

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "delvox/mesh_io/read_mesh.h"
@@ -22,6 +25,17 @@ enum class CellKind {
   kUnsupported,
 };
 
+/// Millimetres in a metre: files in metres are brought to millimetres as they are read.
+inline constexpr double kMmPerMetre = 1000;
+
+/// A set as a file states it: indices of what has been read so far.
+struct RawSet {
+  std::vector<std::uint32_t> nodes;
+  std::vector<TetFace> faces;
+  std::vector<std::uint32_t> tets;
+  std::vector<Triangle> triangles;  ///< by their corners, whichever tet they belong to; in any orientation
+};
+
 /// What a reader has found so far, unchecked.
 struct RawMesh {
   std::vector<Point3> points;
@@ -31,8 +45,14 @@ struct RawMesh {
   std::vector<std::uint8_t> on_surface;   ///< one per point, or empty
   MeshInfo info;
   double coordinate_error = 0;
+  std::vector<std::pair<std::string, RawSet>> sets;
+  std::vector<MidNodes> mid_nodes;        ///< of tets of second order; whole if as many as tets
 
-  /// Adds one cell; nodes are indices into points, which may still be missing. `name` is what the format calls it.
+  /// The set of that name, made if there is none.
+  RawSet& set(const std::string& name);
+
+  /// Adds one cell; nodes are indices into points, which may still be missing, in
+  /// our order. `name` is what the format calls it.
   void add_cell(const Source& source, CellKind kind, std::span<const std::int64_t> nodes, const std::string& name);
   /// Adds a cell to tets or triangles as its kind says and, if it is a tet, its region.
   void add_cell(const Source& source, CellKind kind, std::span<const std::int64_t> nodes, const std::string& name,
@@ -42,9 +62,11 @@ struct RawMesh {
   Mesh finish(const Source& source) &&;
 
  private:
-  void drop_mid_nodes();
+  std::vector<std::uint32_t> drop_mid_nodes();
+  std::vector<MeshSet> finished_sets(const Source& source, const std::vector<std::uint32_t>& renumbered) const;
   void triangulate_polygons(const Source& source);
 
+  std::map<std::string, std::size_t> set_index_;  ///< into sets
   std::vector<std::vector<std::uint32_t>> polygons_;
   std::vector<std::uint32_t> mid_nodes_;
 };

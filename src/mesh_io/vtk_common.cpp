@@ -29,6 +29,7 @@ constexpr FlagField kFlags[] = {
 };
 
 constexpr const char* kFrame = "delvox_frame";  // 0 unknown, 1 RAS, 2 LPS
+constexpr const char* kUnit = "delvox_unit_is_metre";
 
 }  // namespace
 
@@ -40,7 +41,7 @@ CellKind vtk_cell_kind(std::int64_t vtk_type) {
     case kVtkTriangle: case 22: return CellKind::kTriangle;
     case 6: return CellKind::kStrip;
     case 7: case 9: return CellKind::kPolygon;
-    case kVtkTet: case 24: return CellKind::kTet;
+    case kVtkTet: case kVtkQuadraticTet: return CellKind::kTet;
     default: return CellKind::kUnsupported;
   }
 }
@@ -48,6 +49,7 @@ CellKind vtk_cell_kind(std::int64_t vtk_type) {
 std::vector<std::pair<std::string, double>> info_fields(const MeshInfo& info) {
   std::vector<std::pair<std::string, double>> result{{kFrame, static_cast<double>(info.frame)}};
   for (const FlagField& field : kFlags) result.emplace_back(field.name, info.*field.member ? 1.0 : 0.0);
+  if (info.unit == LengthUnit::kMetre) result.emplace_back(kUnit, 1.0);
   MeshInfo copy = info;
   for (const NumberField& field : kNumbers) {
     if (const std::optional<double>& value = field.in(copy)) result.emplace_back(field.name, *value);
@@ -57,6 +59,7 @@ std::vector<std::pair<std::string, double>> info_fields(const MeshInfo& info) {
 
 void read_info_field(const std::string& name, double value, MeshInfo& info) {
   if (name == kFrame) info.frame = value == 1 ? Frame::kRas : value == 2 ? Frame::kLps : Frame::kUnknown;
+  if (name == kUnit) info.unit = value != 0 ? LengthUnit::kMetre : LengthUnit::kMillimetre;
   for (const FlagField& field : kFlags) {
     if (name == field.name) info.*field.member = value != 0;
   }

@@ -10,9 +10,13 @@
 namespace delvox::mesh_io {
 
 // What VTU and legacy VTK share.
-inline constexpr int kVtkTriangle = 5, kVtkTet = 10;
+inline constexpr int kVtkTriangle = 5, kVtkTet = 10, kVtkQuadraticTet = 24;
 inline constexpr const char* kRegionArray = "region";
 inline constexpr const char* kOnSurfaceArray = "on_surface";
+
+/// Arrays of the sets of a VTU file, by name of the set: 1 for each node or tet in it; for faces one bit for each face
+/// of each tet (kTetFaces), the lowest for face 0.
+inline constexpr const char *kSetNodes = "set_nodes_", *kSetTets = "set_tets_", *kSetFaces = "set_faces_";
 
 CellKind vtk_cell_kind(std::int64_t vtk_type);
 

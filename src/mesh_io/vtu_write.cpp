@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <limits>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -93,6 +94,38 @@ std::array<Point3, std::tuple_size_v<Cell>> corners_of(const MeshView& mesh, con
   return corners;
 }
 
+/// One byte for each of `count` things: what `set_bits` puts there.
+template <class SetBits>
+void add_flags(const std::string& name, std::size_t count, VtuBody& body, const SetBits& set_bits) {
+  std::vector<std::uint8_t> flags(count, 0);
+  set_bits(flags);
+  body.array(name.c_str(), "UInt8", 1, std::span<const std::uint8_t>(flags));
+}
+
+void add_node_sets(const MeshView& mesh, VtuBody& body) {
+  for (const MeshSet& set : mesh.sets) {
+    if (set.nodes.empty()) continue;
+    add_flags(kSetNodes + set.name, mesh.points.size(), body, [&](auto& flags) {
+      for (std::uint32_t node : set.nodes) flags[node] = 1;
+    });
+  }
+}
+
+void add_tet_sets(const MeshView& mesh, VtuBody& body) {
+  for (const MeshSet& set : mesh.sets) {
+    if (!set.tets.empty()) {
+      add_flags(kSetTets + set.name, mesh.tets.size(), body, [&](auto& flags) {
+        for (std::uint32_t tet : set.tets) flags[tet] = 1;
+      });
+    }
+    if (!set.faces.empty()) {
+      add_flags(kSetFaces + set.name, mesh.tets.size(), body, [&](auto& flags) {
+        for (TetFace face : set.faces) flags[face.tet] = static_cast<std::uint8_t>(flags[face.tet] | 1 << face.face);
+      });
+    }
+  }
+}
+
 void add_cell_data(const MeshView& mesh, VtuBody& body) {
   body.open("CellData");
   if (mesh.is_tet_mesh) {
@@ -104,6 +137,15 @@ void add_cell_data(const MeshView& mesh, VtuBody& body) {
     body.array<float>("min_dihedral_degrees", "Float32", 1, count, [&](std::size_t i) {
       return static_cast<float>(min_dihedral_degrees(corners_of(mesh, mesh.tets[i])));
     });
+    if (!mesh.materials.empty()) {
+      std::map<Label, float> moduli;
+      for (const Material& m : mesh.materials) moduli[m.region] = static_cast<float>(m.youngs_modulus_mpa);
+      body.array<float>("youngs_modulus_mpa", "Float32", 1, count, [&](std::size_t i) {
+        const auto found = moduli.find(mesh.region(i));
+        return found == moduli.end() ? 0.0f : found->second;
+      });
+    }
+    add_tet_sets(mesh, body);
   } else {
     body.array<float>("min_angle_degrees", "Float32", 1, mesh.triangles.size(), [&](std::size_t i) {
       return static_cast<float>(min_angle_degrees(corners_of(mesh, mesh.triangles[i])));
@@ -120,17 +162,27 @@ std::span<const T> numbers_of(std::span<const Element> elements) {
 }
 
 void add_cells(const MeshView& mesh, VtuBody& body) {
-  const std::size_t corners = mesh.is_tet_mesh ? 4 : 3;
+  const std::size_t nodes = !mesh.is_tet_mesh ? 3 : mesh.second_order() ? 10 : 4;
   const std::size_t count = mesh.is_tet_mesh ? mesh.tets.size() : mesh.triangles.size();
   // Indices as they lie in memory; only meshes of over two thousand million points need another type.
   const bool fits = mesh.points.size() <= std::numeric_limits<std::int32_t>::max();
   body.open("Cells");
-  body.array("connectivity", fits ? "Int32" : "UInt32", 1,
-             mesh.is_tet_mesh ? numbers_of<std::uint32_t>(mesh.tets) : numbers_of<std::uint32_t>(mesh.triangles));
+  const char* type = fits ? "Int32" : "UInt32";
+  if (mesh.second_order()) {
+    body.array<std::uint32_t>("connectivity", type, 1, nodes * count, [&](std::size_t i) {
+      const std::size_t tet = i / nodes, place = i % nodes;
+      return place < 4 ? mesh.tets[tet][place] : mesh.mid_nodes[tet][place - 4];
+    });
+  } else {
+    body.array("connectivity", type, 1,
+               mesh.is_tet_mesh ? numbers_of<std::uint32_t>(mesh.tets) : numbers_of<std::uint32_t>(mesh.triangles));
+  }
   body.array<std::int64_t>("offsets", "Int64", 1, count,
-                           [&](std::size_t i) { return static_cast<std::int64_t>(corners * (i + 1)); });
+                           [&](std::size_t i) { return static_cast<std::int64_t>(nodes * (i + 1)); });
   body.array<std::uint8_t>("types", "UInt8", 1, count, [&](std::size_t) {
-    return static_cast<std::uint8_t>(mesh.is_tet_mesh ? kVtkTet : kVtkTriangle);
+    return static_cast<std::uint8_t>(!mesh.is_tet_mesh      ? kVtkTriangle
+                                     : mesh.second_order() ? kVtkQuadraticTet
+                                                           : kVtkTet);
   });
   body.close("Cells");
 }
@@ -156,6 +208,7 @@ void write_vtu(const MeshView& mesh, Out& out) {
   VtuBody body;
   body.open("PointData");
   if (!mesh.on_surface.empty()) body.array(kOnSurfaceArray, "UInt8", 1, mesh.on_surface);
+  add_node_sets(mesh, body);
   body.close("PointData");
   add_cell_data(mesh, body);
   body.open("Points");

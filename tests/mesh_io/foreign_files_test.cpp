@@ -369,7 +369,7 @@ TEST(ForeignGmsh, OfAnotherVersionIsRefusedByName) {
 
 TEST(ForeignAbaqus, IsReadWithOtherKeywordsAndMidNodes) {
   // A C3D10 over two lines, nodes out of order, a shell on a face, lines and a step.
-  expect_unit_tet(read_text("a.inp", R"(*Heading
+  const MeshFile file = read_text("a.inp", R"(*Heading
  a part
 ** a comment
 *Node
@@ -397,7 +397,44 @@ TEST(ForeignAbaqus, IsReadWithOtherKeywordsAndMidNodes) {
 *Node print, nset=all
 U
 *End step
-)"), {1});
+)");
+  ASSERT_TRUE(std::holds_alternative<TetMesh>(file.mesh));
+  const auto& mesh = std::get<TetMesh>(file.mesh);
+  EXPECT_EQ(mesh.tets, (std::vector<Tet>{{0, 1, 2, 3}}));
+  EXPECT_EQ(mesh.mid_nodes, (std::vector<MidNodes>{{4, 5, 6, 7, 8, 9}}));
+  EXPECT_EQ(mesh.points[9], (Point3{0, 0.5, 0.5}));
+  ASSERT_EQ(mesh.sets.size(), 1u);
+  EXPECT_EQ(mesh.sets[0].name, "ALL");
+  EXPECT_EQ(mesh.sets[0].nodes.size(), 10u);
+}
+
+TEST(ForeignAbaqus, SetsAreReadByNumberRangeAndName) {
+  const MeshFile file = read_text("a.inp", R"(*NODE
+10,0,0,0
+20,1,0,0
+30,0,1,0
+40,0,0,1
+*ELEMENT,TYPE=C3D4
+7,10,20,30,40
+*NSET,NSET=Base,GENERATE
+10,30,10
+*NSET,NSET=More
+base, 40, 99
+*ELSET,ELSET=Body
+7
+*SURFACE,NAME=Faces
+7,S1
+ 7 , s4
+*SURFACE,NAME=ByNodes,TYPE=NODE
+10
+)");
+  const auto& mesh = std::get<TetMesh>(file.mesh);
+  ASSERT_EQ(mesh.sets.size(), 4u);
+  EXPECT_EQ(mesh.sets[0], (MeshSet{"BASE", {0, 1, 2}, {}, {}}));
+  EXPECT_EQ(mesh.sets[1], (MeshSet{"MORE", {0, 1, 2, 3}, {}, {}}));
+  EXPECT_EQ(mesh.sets[2], (MeshSet{"BODY", {}, {0}, {}}));
+  // S1 is 1-2-3, opposite corner 3; S4 is 3-4-1, opposite corner 1.
+  EXPECT_EQ(mesh.sets[3], (MeshSet{"FACES", {}, {}, {{0, 1}, {0, 3}}}));
 }
 
 TEST(ForeignAbaqus, OfShellsIsASurface) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "delvox/core/mesh.h"
+#include "delvox/meshing/second_order.h"
 
 namespace delvox::testing {
 
@@ -57,6 +58,20 @@ inline TetMesh awkward_tets() {
   mesh.info.isovalue = 2.9;
   mesh.info.below = true;
   mesh.info.complete = false;
+  return mesh;
+}
+
+/// Those tets with mid-side nodes, some of them off the middle, complete, and sets that overlap; names in capitals.
+inline TetMesh awkward_tets_with_sets() {
+  TetMesh mesh = awkward_tets();
+  mesh.info.complete = true;
+  make_second_order(mesh, nullptr);
+  for (std::size_t i = 5; i < mesh.points.size(); ++i) mesh.points[i].x += 0.125 * static_cast<double>(i);
+  mesh.on_surface.assign(mesh.points.size(), 1);
+  mesh.sets = {{"NODES-ONLY", {0, 3, 7}, {}, {}},
+               {"TETS", {}, {1}, {}},
+               {"ALL_3", {0, 1, 2, 3}, {0, 1}, {{0, 1}, {0, 2}, {1, 0}}},
+               {"FACES", {}, {}, {{0, 2}, {1, 3}}}};
   return mesh;
 }
 

@@ -1,10 +1,10 @@
-// Abaqus and CalculiX input. CalculiX reads at most 20 characters per field and silently misreads longer ones, so
-// coordinates get 12 significant digits.
+// Abaqus and CalculiX input: nodes, elements and sets; the rest of a deck is passed over.
 #include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "mesh_io/abaqus_names.h"
 #include "mesh_io/formats.h"
 #include "mesh_io/header_comment.h"
 #include "mesh_io/numbered_mesh.h"
@@ -12,46 +12,7 @@
 namespace delvox::mesh_io {
 namespace {
 
-constexpr std::string_view kRegionPrefix = "REGION_";
 constexpr double kRoundingOf12Digits = 5e-12;
-
-void write_nodes(const MeshView& mesh, Out& out) {
-  out.put("*NODE, NSET=NALL\n");
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    const Point3& p = mesh.points[i];
-    out.put(i + 1, ", ", Digits12{p.x}, ", ", Digits12{p.y}, ", ", Digits12{p.z}, '\n');
-  }
-}
-
-void write_tets(const MeshView& mesh, Out& out) {
-  std::map<Label, std::vector<std::size_t>> by_region;
-  for (std::size_t t = 0; t < mesh.tets.size(); ++t) by_region[mesh.region(t)].push_back(t);
-  for (const auto& [region, tets] : by_region) {
-    out.put("*ELEMENT, TYPE=C3D4, ELSET=", kRegionPrefix, region, '\n');
-    for (std::size_t t : tets) {
-      const Tet& tet = mesh.tets[t];
-      out.put(t + 1, ", ", tet[0] + 1, ", ", tet[1] + 1, ", ", tet[2] + 1, ", ", tet[3] + 1, '\n');
-    }
-  }
-}
-
-/// The nodes of the boundary as a set, for boundary conditions.
-void write_surface_set(const MeshView& mesh, Out& out) {
-  constexpr std::size_t kPerLine = 16;  // what Abaqus takes at most
-  std::vector<bool> used(mesh.points.size(), false);
-  for (const Triangle& triangle : mesh.triangles) {
-    for (std::uint32_t node : triangle) used[node] = true;
-  }
-  out.put("*NSET, NSET=SURFACE\n");
-  std::size_t written = 0;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) continue;
-    if (written > 0) out.put(written % kPerLine == 0 ? ",\n" : ", ");
-    out.put(i + 1);
-    ++written;
-  }
-  out.put('\n');
-}
 
 struct ElementType {
   CellKind kind = CellKind::kIgnored;
@@ -127,14 +88,32 @@ class Reader {
   }
 
  private:
-  enum class Section { kOther, kNodes, kElements };
+  enum class Section { kOther, kNodes, kElements, kNodeSet, kElementSet, kSurface };
 
   void begin_section(const Keyword& keyword) {
     finish_section();
     section_ = Section::kOther;
     if (keyword.name == "NODE") section_ = Section::kNodes;
     if (keyword.name == "INCLUDE") source_.fail("includes other files", "merge them into one");
-    if (keyword.name != "ELEMENT") return;
+    if (keyword.name == "NSET") begin_set(Section::kNodeSet, keyword, "NSET");
+    if (keyword.name == "ELSET") begin_set(Section::kElementSet, keyword, "ELSET");
+    if (keyword.name == "SURFACE") begin_set(Section::kSurface, keyword, "NAME");
+    if (keyword.name == "ELEMENT") begin_elements(keyword);
+  }
+
+  /// Those that write_abaqus makes of itself say nothing new.
+  void begin_set(Section section, const Keyword& keyword, const char* parameter) {
+    const auto name = keyword.parameters.find(parameter);
+    if (name == keyword.parameters.end()) return;
+    const auto type = keyword.parameters.find("TYPE");
+    if (section == Section::kSurface && type != keyword.parameters.end() && type->second != "ELEMENT") return;
+    if (name->second == kAllNodes || name->second == kAllTets || name->second == kBoundary) return;
+    section_ = section;
+    set_ = name->second;
+    generate_ = keyword.parameters.contains("GENERATE");
+  }
+
+  void begin_elements(const Keyword& keyword) {
     const auto type = keyword.parameters.find("TYPE");
     if (type == keyword.parameters.end()) source_.fail("has an *ELEMENT without a TYPE");
     type_name_ = type->second;
@@ -171,10 +150,58 @@ class Reader {
       line.remove_prefix(std::min(comma + 1, line.size()));
     }
     while (!fields_.empty() && fields_.back().empty()) fields_.pop_back();
-    if (section_ == Section::kNodes) {
-      add_node();
+    switch (section_) {
+      case Section::kNodes: return add_node();
+      case Section::kElements:
+        for (std::string_view field : fields_) add_element_number(parse_integer(source_, field));
+        return;
+      case Section::kNodeSet:
+      case Section::kElementSet: return add_to_set();
+      case Section::kSurface: return add_face();
+      case Section::kOther: return;
+    }
+  }
+
+  /// Members by number, by ranges (GENERATE), or by the name of an earlier set.
+  void add_to_set() {
+    auto& ranges = ranges_of_[{section_, set_}];
+    const std::size_t first = ranges.size();
+    if (generate_ && fields_.size() >= 2) {
+      const std::int64_t step = fields_.size() > 2 ? parse_integer(source_, fields_[2]) : 1;
+      if (step < 1) source_.fail("a set is generated in steps of " + std::to_string(step));
+      ranges.push_back({parse_integer(source_, fields_[0]), parse_integer(source_, fields_[1]), step});
     } else {
-      for (std::string_view field : fields_) add_element_number(parse_integer(source_, field));
+      for (std::string_view field : fields_) {
+        const bool is_number = !field.empty() && field.find_first_not_of("+0123456789") == std::string_view::npos;
+        if (is_number) {
+          const std::int64_t number = parse_integer(source_, field);
+          ranges.push_back({number, number, 1});
+          continue;
+        }
+        const auto earlier = ranges_of_.find({section_, upper_case(field)});
+        if (earlier == ranges_of_.end() || &earlier->second == &ranges) continue;
+        if (ranges.size() + earlier->second.size() > source_.bytes.size()) source_.fail("its sets name each other too often");
+        ranges.insert(ranges.end(), earlier->second.begin(), earlier->second.end());
+      }
+    }
+    for (std::size_t i = first; i < ranges.size(); ++i) {
+      if (section_ == Section::kNodeSet) {
+        numbered_.add_nodes_to_set(set_, ranges[i]);
+      } else {
+        numbered_.add_elements_to_set(set_, ranges[i]);
+      }
+    }
+  }
+
+  /// "12, S1"; surfaces of whole element sets are passed over.
+  void add_face() {
+    if (fields_.size() < 2 || fields_[0].empty()) return;
+    if (fields_[0].find_first_not_of("+0123456789") != std::string_view::npos) return;
+    const std::string face = upper_case(fields_[1]);
+    for (std::uint8_t own = 0; own < 4; ++own) {
+      if (face == "S" + std::to_string(kAbaqusFace[own])) {
+        numbered_.add_face_to_set(set_, parse_integer(source_, fields_[0]), own);
+      }
     }
   }
 
@@ -204,27 +231,15 @@ class Reader {
   ElementType type_;
   std::int64_t region_ = 1;
   std::map<std::string, std::int64_t> region_names_;
+  std::string set_;        ///< being listed
+  bool generate_ = false;  ///< as ranges
+  std::map<std::pair<Section, std::string>, std::vector<NumberRange>> ranges_of_;
   std::vector<std::string_view> fields_;
   std::vector<std::int64_t> pending_;  ///< number and nodes of the element being read
   NumberedMesh numbered_;
 };
 
 }  // namespace
-
-void write_abaqus(const MeshView& mesh, Out& out) {
-  out.put("** ", header_comment(mesh.info), '\n');
-  write_nodes(mesh, out);
-  if (mesh.is_tet_mesh) {
-    write_tets(mesh, out);
-    write_surface_set(mesh, out);
-    return;
-  }
-  out.put("*ELEMENT, TYPE=S3, ELSET=SURFACE\n");
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const Triangle& triangle = mesh.triangles[t];
-    out.put(t + 1, ", ", triangle[0] + 1, ", ", triangle[1] + 1, ", ", triangle[2] + 1, '\n');
-  }
-}
 
 RawMesh read_abaqus(const Source& source) { return Reader(source).read(); }
 
