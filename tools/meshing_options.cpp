@@ -32,6 +32,11 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
         ->check(CLI::Range(2.0, 1e6))
         ->capture_default_str()
         ->type_name("RATIO");
+    app.add_option("--min-dihedral", options.min_dihedral_degrees,
+                   "Lower bound on the dihedral angles of tets, up to 30; 0 leaves slivers as they are (default: 15, "
+                   "and tets that cannot have it are no failure)")
+        ->check(CLI::Range(0.0, 30.0))
+        ->type_name("DEG");
   }
   app.add_option("--max-deviation", options.max_deviation,
                  "Upper bound on the distance from a triangle's circumcentre to its surface ball centre, mm")

@@ -14,6 +14,8 @@ namespace delvox::tools {
 
 enum class MeshKind { kSurface, kTets };
 
+inline constexpr double kDefaultMinDihedralDegrees = 15;
+
 /// Everything that `surface` and `tet` take. The initial values are the defaults that --help shows.
 struct MeshingOptions {
   MeshKind kind = MeshKind::kTets;
@@ -24,6 +26,7 @@ struct MeshingOptions {
   std::size_t tets = 0;                  ///< wanted number of tets; 0: as size says
   double min_angle_degrees = 30;
   double radius_edge = 2;
+  std::optional<double> min_dihedral_degrees;  ///< 0: slivers are left; unset: the default, promised only if it is met
   std::optional<double> max_deviation;   ///< mm
   std::optional<double> min_ball_radius;  ///< mm; default: 0.001 voxel
   std::string border = "close";          ///< close or open

@@ -10,6 +10,7 @@
 #include "delvox/core/errors.h"
 #include "delvox/meshing/delsurf.h"
 #include "delvox/meshing/deltetsurf.h"
+#include "delvox/meshing/remove_slivers.h"
 #include "delvox/meshing/second_order.h"
 #include "exit_codes.h"
 #include "forecast.h"
@@ -62,7 +63,11 @@ class MeshingRun {
   void look_ahead(const Oracle& oracle);
   [[noreturn]] void refuse(const Oracle& oracle, const ProcessForecast& forecast) const;
   SurfaceCriteria surface_criteria(const SizeField& size) const;
+  TetCriteria tet_criteria(const SizeField& size) const { return {options_.radius_edge, cell_size_.value_or(size)}; }
+  RunControl control();
   Mesh run_mesher(const Oracle& oracle, const SizeField& size);
+  void remove_slivers_of(TetMesh& mesh, const Oracle& oracle, const SizeField& size);
+  void list_unmet_tets() const;
   double meshing_seconds() const;
   void check();
   void write();
@@ -82,6 +87,7 @@ class MeshingRun {
   std::optional<Forecast> forecast_;
   Mesh mesh_;
   RunReport run_report_;
+  std::optional<SliverReport> sliver_report_;
   CheckReport check_report_;
   std::string set_fault_;
   std::string verdict_;
@@ -147,23 +153,40 @@ void MeshingRun::refuse(const Oracle& oracle, const ProcessForecast& forecast) c
                    " exceeds --max-memory " + options_.max_memory + "; " + mend);
 }
 
-// One run of the book's algorithm.
-Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
-  const SurfaceCriteria surface = surface_criteria(size);
+RunControl MeshingRun::control() {
   RunControl control;
   control.limits = options_.limits;
-  if (control.limits.max_seconds > 0) {  // what earlier runs of --tets have left of it
+  if (control.limits.max_seconds > 0) {  // what earlier runs of --tets, or refinement, have left of it
     control.limits.max_seconds = std::max(1e-3, control.limits.max_seconds - meshing_seconds());
   }
   control.on_progress = [this](const Progress& progress) { progress_.show(progress); };
   control.cancel = &cancel_requested();
-  if (options_.kind == MeshKind::kSurface) return delsurf(oracle, {surface, control}, run_report_);
-  return deltetsurf(oracle, {surface, {options_.radius_edge, cell_size_.value_or(size)}, control}, run_report_);
+  return control;
+}
+
+// One run of the book's algorithm.
+Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
+  const SurfaceCriteria surface = surface_criteria(size);
+  return watch_.timed("meshing", [&]() -> Mesh {
+    if (options_.kind == MeshKind::kSurface) return delsurf(oracle, {surface, control()}, run_report_);
+    return deltetsurf(oracle, {surface, tet_criteria(size), control()}, run_report_);
+  });
+}
+
+// A bound that was asked for is promised, so that the check fails where it does not hold.
+void MeshingRun::remove_slivers_of(TetMesh& mesh, const Oracle& oracle, const SizeField& size) {
+  const double bound = options_.min_dihedral_degrees.value_or(kDefaultMinDihedralDegrees);
+  if (bound == 0 || run_report_.stop != StopReason::kFinished) return;
+  const RemoveSliversOptions options{bound, surface_criteria(size), tet_criteria(size), control()};
+  sliver_report_ = watch_.timed("slivers", [&] { return remove_slivers(mesh, oracle, options, run_report_); });
+  if (options_.min_dihedral_degrees) mesh.info.promises.min_dihedral_degrees = bound;
 }
 
 double MeshingRun::meshing_seconds() const {
   double seconds = 0;
-  for (const StageTime& stage : watch_.stages()) seconds += stage.stage == "meshing" ? stage.seconds : 0;
+  for (const StageTime& stage : watch_.stages()) {
+    if (stage.stage == "meshing" || stage.stage == "slivers") seconds += stage.seconds;
+  }
   return seconds;
 }
 
@@ -173,7 +196,9 @@ void MeshingRun::mesh_at(const SizeField& size) {
   throw_if_cancelled();
   look_ahead(*oracle);
   throw_if_cancelled();
-  mesh_ = watch_.timed("meshing", [&] { return run_mesher(*oracle, size); });
+  mesh_ = run_mesher(*oracle, size);
+  sliver_report_.reset();
+  if (auto* tets = std::get_if<TetMesh>(&mesh_)) remove_slivers_of(*tets, *oracle, size);
   progress_.clear();
   if (options_.output.order == 2) watch_.timed("second order", [&] { curve(*oracle); });
   for (const StageTime& stage : run_report_.stages) {
@@ -182,6 +207,11 @@ void MeshingRun::mesh_at(const SizeField& size) {
   console_.detail("inserted: surface " + grouped(run_report_.surface_insertions) + ", topology " +
                   grouped(run_report_.topology_insertions) + ", interior " + grouped(run_report_.interior_insertions) +
                   "; removed " + grouped(run_report_.removals));
+  if (sliver_report_) {
+    console_.detail("slivers " + grouped(sliver_report_->slivers) + ": reconnected " +
+                    grouped(sliver_report_->reconnections) + ", moved " + grouped(sliver_report_->moves) + ", left " +
+                    grouped(sliver_report_->unmet.size()));
+  }
 }
 
 // Mid-side nodes, those of the boundary on the isosurface; what is not is told.
@@ -245,6 +275,7 @@ void MeshingRun::mesh() {
   const FrameChange frame = domain_->frame();
   frame.apply(mesh_);
   frame.apply(run_report_);
+  if (sliver_report_) frame.apply(*sliver_report_);
   apply_unit(options_.output.unit, mesh_);
   name_sets();
 }
@@ -275,6 +306,7 @@ Json MeshingRun::report() const {
                {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
                {"sets", sets_json(mesh_)},
                {"run", to_json(run_report_)},
+               {"slivers", sliver_report_ ? to_json(*sliver_report_) : Json()},
                {"check", to_json(check_report_)},
                {"seconds", watch_.total()},
                {"stages", to_json(watch_.stages())},
@@ -300,11 +332,23 @@ std::string MeshingRun::summary() const {
   return text;
 }
 
+void MeshingRun::list_unmet_tets() const {
+  if (!sliver_report_) return;
+  constexpr std::size_t kListed = 20;
+  const auto& unmet = sliver_report_->unmet;
+  for (std::size_t i = 0; i < std::min(kListed, unmet.size()); ++i) {
+    console_.note("warning: a dihedral angle of " + number(unmet[i].dihedral_degrees, 3) + " degrees at " +
+                  point(unmet[i].where) + ": " + unmet[i].reason);
+  }
+  if (unmet.size() > kListed) console_.note("... and " + grouped(unmet.size() - kListed) + " more, see --report");
+}
+
 // The report to its file and to the console.
 void MeshingRun::tell(Json json) const {
   json.update(report());
   if (!options_.report.empty()) write_json(json, options_.report);
   if (console_.json()) console_.machine_result(text_of(json));
+  list_unmet_tets();
   console_.result(summary());
 }
 

@@ -50,6 +50,10 @@ void FrameChange::apply(RunReport& report) const {
   for (Unmet& unmet : report.unmet) unmet.where = (*this)(unmet.where);
 }
 
+void FrameChange::apply(SliverReport& report) const {
+  for (UnmetTet& unmet : report.unmet) unmet.where = (*this)(unmet.where);
+}
+
 std::string FrameChange::iso_in_volume(const std::string& text) const {
   if (!turns_ || !text.starts_with("at:")) return text;
   std::vector<std::string> coordinates = split(text.substr(3), ',');

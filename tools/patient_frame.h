@@ -4,6 +4,7 @@
 
 #include "delvox/core/mesh.h"
 #include "delvox/core/run.h"
+#include "delvox/meshing/remove_slivers.h"
 
 namespace CLI {
 class App;
@@ -30,6 +31,7 @@ class FrameChange {
   void apply(Mesh& mesh) const;
   /// The places that a report names.
   void apply(RunReport& report) const;
+  void apply(SliverReport& report) const;
   /// --iso at:x,y,z and --crop x0:x1,y0:y1,z0:z1mm with their world coordinates carried to the volume's frame; other
   /// texts are returned as they are.
   std::string iso_in_volume(const std::string& text) const;

@@ -178,6 +178,20 @@ Json to_json(const RunReport& report) {
           {"removals", report.removals}};
 }
 
+Json to_json(const SliverReport& report) {
+  Json unmet = Json::array();
+  for (const UnmetTet& tet : report.unmet) {
+    unmet.push_back({{"where", to_json(tet.where)},
+                     {"dihedral_degrees", tet.dihedral_degrees},
+                     {"reason", tet.reason},
+                     {"surface_forbids", tet.surface_forbids}});
+  }
+  return {{"slivers", report.slivers},
+          {"reconnections", report.reconnections},
+          {"moves", report.moves},
+          {"unmet", std::move(unmet)}};
+}
+
 Json to_json(const CheckReport& report) {
   Json checks = Json::array();
   for (const Check& check : report.checks) checks.push_back(to_json(check));

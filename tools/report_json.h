@@ -7,6 +7,7 @@
 #include "delvox/core/mesh.h"
 #include "delvox/core/run.h"
 #include "delvox/meshing/forecast.h"
+#include "delvox/meshing/remove_slivers.h"
 #include "delvox/volume/volume.h"
 #include "verbs.h"
 
@@ -26,6 +27,7 @@ Json to_json(const FilterReport& report);
 Json to_json(const Forecast& forecast);
 Json to_json(const MeshInfo& info);
 Json to_json(const RunReport& report);
+Json to_json(const SliverReport& report);
 Json to_json(const CheckReport& report);
 Json to_json(const std::vector<StageTime>& stages);
 

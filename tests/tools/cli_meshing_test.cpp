@@ -47,6 +47,40 @@ TEST_F(CliMeshing, TheShortestCommandWorksAndSaysWhatItChose) {
   EXPECT_NE(outcome.out.find("every check holds"), std::string::npos) << outcome.out;
 }
 
+TEST_F(CliMeshing, SliversAreRemovedUnlessTheyMayStayAndTheMeshPromisesTheAngle) {
+  const std::string volume = phantom("torus"), repaired = folder_ / "repaired.vtu", left = folder_ / "left.vtu";
+  const json by_default = run({"tet", volume, "--size", "1.5", "-o", repaired});
+  EXPECT_GT(by_default["slivers"]["slivers"], 0);
+  EXPECT_TRUE(by_default["slivers"]["unmet"].empty());
+  EXPECT_GE(by_default["check"]["statistics"]["dihedral_degrees"]["min"], 15);
+  const json untouched = run({"tet", volume, "--size", "1.5", "--min-dihedral", "0", "-o", left});
+  EXPECT_TRUE(untouched["slivers"].is_null());
+  EXPECT_LT(untouched["check"]["statistics"]["dihedral_degrees"]["min"], 15);
+  const auto promise = [](const std::string& path) {
+    return std::get<TetMesh>(read_mesh(path).mesh).info.promises.min_dihedral_degrees;
+  };
+  EXPECT_EQ(promise(repaired), 15);
+  EXPECT_EQ(promise(left), std::nullopt);
+  EXPECT_EQ(run_delvox({"check", repaired, "--volume", volume}).code, 0);
+  EXPECT_EQ(run_delvox({"check", left, "--min-dihedral", "15"}).code, 5);
+}
+
+TEST_F(CliMeshing, AnAngleThatWasAskedForAndIsNotMetIsABrokenPromiseThatSaysWhere) {
+  const std::string volume = phantom("random", {"--dims", "10,10,10"}), out = folder_ / "random.vtu";
+  const std::vector<std::string> arguments{"tet", volume, "--iso", "1.618", "--size", "0.5", "--min-component", "0",
+                                           "--min-dihedral", "30", "-o", out};
+  const Outcome outcome = run_delvox(arguments);
+  EXPECT_EQ(outcome.code, 5);
+  EXPECT_NE(outcome.err.find("warning: a dihedral angle of "), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("against 30 deg, at "), std::string::npos) << outcome.err;
+  EXPECT_FALSE(std::get<TetMesh>(read_mesh(out).mesh).info.complete);
+  std::vector<std::string> quiet = arguments;
+  quiet.push_back("--quiet");
+  EXPECT_EQ(line_count(run_delvox(quiet).err), 1u);
+  EXPECT_EQ(run_delvox({"tet", volume, "--min-dihedral", "31", "-o", out}).code, 2);
+  EXPECT_EQ(run_delvox({"surface", volume, "--min-dihedral", "15", "-o", out}).code, 2);
+}
+
 TEST_F(CliMeshing, AnIsovalueThatSamplesEqualIsToldWithOneThatNoneDoesAndThatOneHolds) {
   for (const char* seed : {"1", "2", "3"}) {
     const std::string volume = phantom("random", {"--dims", "10,10,10", "--seed", seed});

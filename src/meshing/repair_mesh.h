@@ -1,0 +1,74 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "delvox/core/mesh.h"
+#include "meshing/incidence_lists.h"
+
+namespace delvox {
+
+/// Tets, and triangles of the boundary, that take the place of others.
+struct Change {
+  std::vector<std::uint32_t> old_tets, old_triangles;
+  std::vector<Tet> new_tets;
+  std::vector<Triangle> new_triangles;
+
+  void clear() {
+    old_tets.clear();
+    old_triangles.clear();
+    new_tets.clear();
+    new_triangles.clear();
+  }
+};
+
+/// A tet mesh that is changed in places: plain arrays, and what meets at each vertex.
+class RepairMesh {
+ public:
+  /// pre: mesh.boundary is the boundary of mesh.tets. Takes hold of the mesh until finish().
+  explicit RepairMesh(TetMesh& mesh);
+
+  const Point3& point(std::uint32_t vertex) const { return mesh_.points[vertex]; }
+  void move(std::uint32_t vertex, const Point3& place) { mesh_.points[vertex] = place; }
+  std::size_t tet_count() const { return mesh_.tets.size(); }
+  /// pre: alive(tet).
+  const Tet& tet(std::uint32_t tet) const { return mesh_.tets[tet]; }
+  bool alive(std::uint32_t tet) const { return mesh_.tets[tet][0] != kDead; }
+  Label region(std::uint32_t tet) const { return mesh_.regions.empty() ? 1 : mesh_.regions[tet]; }
+  std::size_t triangle_count() const { return mesh_.boundary.size(); }
+  /// pre: triangle_alive(triangle).
+  const Triangle& triangle(std::uint32_t triangle) const { return mesh_.boundary[triangle]; }
+  bool triangle_alive(std::uint32_t triangle) const { return mesh_.boundary[triangle][0] != kDead; }
+
+  /// Tets at a vertex.
+  std::span<const std::uint32_t> star(std::uint32_t vertex) const { return stars_.of(vertex); }
+  /// Triangles of the boundary at a vertex.
+  std::span<const std::uint32_t> fan(std::uint32_t vertex) const { return fans_.of(vertex); }
+  bool on_boundary(std::uint32_t vertex) const { return !fans_.of(vertex).empty(); }
+  bool has_boundary_edge(std::uint32_t a, std::uint32_t b) const;
+  static constexpr std::uint32_t kNone = ~0u;
+  /// Number of the triangle of the boundary with these corners, or kNone.
+  std::uint32_t boundary_triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
+
+  /// A vertex that is no corner yet.
+  std::uint32_t add_vertex(const Point3& place);
+  /// Puts the new in place of the old. pre: the old tets are of one region.
+  void apply(const Change& change);
+  /// Numbers of what the last apply() made.
+  const std::vector<std::uint32_t>& added_tets() const { return added_tets_; }
+  const std::vector<std::uint32_t>& added_triangles() const { return added_triangles_; }
+  /// Closes the gaps left in the arrays.
+  void finish();
+
+ private:
+  static constexpr std::uint32_t kDead = ~0u;
+  void replace_triangles(const Change& change);
+  void drop_unused_points();
+
+  TetMesh& mesh_;
+  IncidenceLists stars_, fans_;
+  std::vector<std::uint32_t> free_tets_, free_triangles_, added_tets_, added_triangles_;
+  bool points_changed_ = false;
+};
+
+}  // namespace delvox
