@@ -4,7 +4,7 @@
 
 delvox_packages=(
   cmake ninja-build g++ ccache
-  libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libtiff-dev zlib1g-dev libdeflate-dev
+  libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libtiff-dev zlib1g-dev libdeflate-dev libginac-dev
   nlohmann-json3-dev libcli11-dev libgtest-dev
   libcgal-demo  # sample volumes: the liver of the demo and of the tests
 )

@@ -59,5 +59,7 @@ class MeshingDomain {
 
 /// The isosurface of a volume.
 std::unique_ptr<MeshingDomain> make_volume_domain(const MeshingOptions& options);
+/// The domain of --implicit and --box. Throws OptionError: the formula or the box does not parse.
+std::unique_ptr<MeshingDomain> make_formula_domain(const MeshingOptions& options);
 
 }  // namespace delvox::tools

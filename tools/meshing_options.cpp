@@ -10,7 +10,8 @@ namespace {
 void add_size_options(CLI::App& app, MeshingOptions& options) {
   auto* size = app.add_option("--size", options.size,
                               "Upper bound on the radii of surface Delaunay balls, mm: a number, or a volume file as "
-                              "size field (default: 1/60 of the diagonal of the organ's box, at least 1.5 voxel)");
+                              "size field (default: 1/60 of the diagonal of the organ's box, at least 1.5 voxel; of a "
+                              "formula's --box 1/40)");
   size->type_name("S");
   if (options.kind == MeshKind::kSurface) return;
   app.add_option("--tets", options.tets, "Find the size that gives about this many tets")
@@ -43,7 +44,8 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
       ->check(finite_number(Zero::kExcluded))
       ->type_name("MM");
   app.add_option("--min-ball-radius", options.min_ball_radius,
-                 "Topology and deviation leave surface balls this small alone, mm (default: 0.0001 voxel)")
+                 "Topology and deviation leave surface balls this small alone, mm (default: 0.0001 voxel; for formulas "
+                 "0.001 size)")
       ->check(finite_number(Zero::kAllowed))
       ->type_name("MM");
 }
@@ -61,11 +63,35 @@ void add_limit_options(CLI::App& app, MeshingOptions& options) {
       ->type_name("SIZE");
 }
 
+void add_formula_options(CLI::App& app, MeshingOptions& options) {
+  auto* implicit =
+      app.add_option("--implicit", options.implicit,
+                     "In place of a volume: a formula in x, y, z; inside is where it is at most 0. + - * / "
+                     "^, numbers, pi, e, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt, "
+                     "abs, min, max");
+  implicit->type_name("FORMULA");
+  auto* box =
+      app.add_option("--box", options.box,
+                     "Where --implicit is looked at, mm, as --box=-2:2,-2:2,-2:2; its inside must not reach the "
+                     "border of the box");
+  box->needs(implicit)->type_name("BOX");
+  implicit->needs(box);
+}
+
+/// What makes sense for volumes only.
+void exclude_volume_options(CLI::App& app) {
+  for (const char* name : {"VOLUME", "--iso", "--below", "--border", "--spacing", "--volume-index", "--crop",
+                           "--resample", "--smooth", "--largest", "--min-component", "--fill-cavities"}) {
+    if (CLI::Option* option = app.get_option_no_throw(name)) app.get_option("--implicit")->excludes(option);
+  }
+}
+
 }  // namespace
 
 void add_meshing_options(CLI::App& app, MeshingOptions& options) {
-  app.add_option("VOLUME", options.volume.path, "The scan: .nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices")
-      ->required();
+  app.add_option("VOLUME", options.volume.path,
+                 "The scan: .nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices");
+  add_formula_options(app, options);
   add_mesh_output_options(app, options.output);
   if (options.kind == MeshKind::kTets) {
     add_tet_output_options(app, options.output);
@@ -86,6 +112,7 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   add_preprocessing_options(app, options.volume);
   add_component_options(app, options.isosurface);
   add_frame_option(app, options.frame);
+  exclude_volume_options(app);
   add_limit_options(app, options);
   app.add_option("--report", options.report, "Write what was done and checked to a JSON file")->type_name("FILE.json");
   add_config_option(app);

@@ -21,14 +21,16 @@ struct MeshingOptions {
   MeshKind kind = MeshKind::kTets;
   VolumeInputOptions volume;
   IsosurfaceOptions isosurface;
-  std::string size;                      ///< a number or a volume file; empty: default_size()
+  std::string implicit;                  ///< a formula in place of a volume; empty: none
+  std::string box;                       ///< "x0:x1,y0:y1,z0:z1", where the formula is looked at
+  std::string size;                      ///< a number or a volume file; empty: the domain's default
   std::string cell_size;                 ///< a number or a volume file; empty: as size
   std::size_t tets = 0;                  ///< wanted number of tets; 0: as size says
   double min_angle_degrees = 30;
   double radius_edge = 2;
   std::optional<double> min_dihedral_degrees;  ///< 0: slivers are left; unset: the default, promised only if it is met
   std::optional<double> max_deviation;   ///< mm
-  std::optional<double> min_ball_radius;  ///< mm; default: 0.001 voxel
+  std::optional<double> min_ball_radius;  ///< mm; default: the domain's
   std::string border = "close";          ///< close or open
   std::string frame;                     ///< ras, lps, or empty: the volume's own
   RunLimits limits;

@@ -29,13 +29,21 @@
 namespace delvox::tools {
 namespace {
 
+std::unique_ptr<MeshingDomain> make_domain(const MeshingOptions& options) {
+  if (!options.implicit.empty()) return make_formula_domain(options);
+  if (options.volume.path.empty()) {
+    throw OptionError("what to mesh? Give a VOLUME, or --implicit and --box; see --help");
+  }
+  return make_volume_domain(options);
+}
+
 class MeshingRun {
  public:
   explicit MeshingRun(const MeshingOptions& options)
       : options_(options),
         console_(options.console),
         progress_(ProgressDisplay::style_for_stderr(options.console.quiet)),
-        domain_(make_volume_domain(options)) {}
+        domain_(make_domain(options)) {}
 
   /// The steps, in order. `report` already holds what is known before the run.
   void run(Json report) {
@@ -149,7 +157,8 @@ void MeshingRun::refuse(const Oracle& oracle, const ProcessForecast& forecast) c
     mend = "sizes " + rounded_up(*factor) + " times as large would fit";
   }
   if (factor) mend += ", with " + elements(forecast_at(oracle, *factor).mesh);
-  throw RunRefused(options_.volume.path + ": the forecast of " + memory_text(forecast.peak_bytes()) +
+  const std::string name = options_.implicit.empty() ? options_.volume.path : "--implicit";
+  throw RunRefused(name + ": the forecast of " + memory_text(forecast.peak_bytes()) +
                    " exceeds --max-memory " + options_.max_memory + "; " + mend);
 }
 

@@ -112,8 +112,12 @@ double default_size(const Volume& volume, const Isosurface& surface) {
                   kVoxelsPerSize * std::cbrt(voxel_mm3(volume)));
 }
 
+double guess_size(std::size_t tets, double inside_mm3) {
+  return std::cbrt(kTetsPerCubedSize * inside_mm3 / static_cast<double>(tets));
+}
+
 double guess_size(std::size_t tets, const Volume& volume, const Isosurface& surface) {
-  return std::cbrt(kTetsPerCubedSize * measure_inside(volume, surface).volume_mm3 / static_cast<double>(tets));
+  return guess_size(tets, measure_inside(volume, surface).volume_mm3);
 }
 
 SizeField scaled(const SizeField& size, double factor) {

@@ -19,7 +19,9 @@ SizeField parse_size(const std::string& text, const std::string& option, Frame f
 /// A size field `factor` times as large.
 SizeField scaled(const SizeField& size, double factor);
 
-/// A guess at the size that gives `tets` tets, from the volume inside. Throws NothingToMesh if no sample is inside.
+/// A guess at the size that gives `tets` tets in so much volume.
+double guess_size(std::size_t tets, double inside_mm3);
+/// The same for the inside of a volume. Throws NothingToMesh if no sample is inside.
 double guess_size(std::size_t tets, const Volume& volume, const Isosurface& surface);
 
 }  // namespace delvox::tools

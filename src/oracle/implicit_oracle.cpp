@@ -12,6 +12,13 @@
 namespace delvox {
 namespace {
 
+/// The function as a float sample, positive inside; undefined is outside.
+float sample_at(const ImplicitFunction& function, const Point3& p) {
+  constexpr double kLargest = 1e30;
+  const double h = -function.value(p);
+  return static_cast<float>(std::isnan(h) ? -kLargest : std::clamp(h, -kLargest, kLargest));
+}
+
 /// Samples of the function at the centres of a grid over the box, as a volume to find seeds on.
 Volume sample_on_grid(const ImplicitFunction& function) {
   VolumeHeader header;
@@ -28,7 +35,7 @@ Volume sample_on_grid(const ImplicitFunction& function) {
   for (int k = 0; k < header.dims[2]; ++k) {
     for (int j = 0; j < header.dims[1]; ++j) {
       for (int i = 0; i < header.dims[0]; ++i) {
-        samples.push_back(-static_cast<float>(function.value(header.index_to_world({double(i), double(j), double(k)}))));
+        samples.push_back(sample_at(function, header.index_to_world({double(i), double(j), double(k)})));
       }
     }
   }
@@ -37,7 +44,8 @@ Volume sample_on_grid(const ImplicitFunction& function) {
 
 class ImplicitOracle final : public SmoothOracle {
  public:
-  ImplicitOracle(const ImplicitFunction& function, std::shared_ptr<const BrickField> field, const Affine3& grid_to_world)
+  ImplicitOracle(const ImplicitFunction& function, std::shared_ptr<const BrickField> field,
+                 const Affine3& grid_to_world)
       : function_(function), field_(std::move(field)), grid_to_world_(grid_to_world) {}
 
   Box3 bounds() const override { return function_.box; }
@@ -93,9 +101,10 @@ class ImplicitOracle final : public SmoothOracle {
   bool inside(const Point3& p) const { return function_.box.contains(p) && function_.value(p) <= 0; }
 
   Point3 polish(const Point3& a, const Point3& b) const {
-    // Outside the box counts as outside whatever the function says: an end there takes a value of that sign.
+    // Outside the box, and where the function is undefined, counts as outside: an end there takes a value of that sign.
     const auto signed_value = [&](const Point3& p) {
       const double h = -function_.value(p);
+      if (std::isnan(h)) return -1.0;
       return function_.box.contains(p) || h < 0 ? h : -std::abs(h);
     };
     const Vector3 ab = b - a;
@@ -112,13 +121,17 @@ class ImplicitOracle final : public SmoothOracle {
 
 }  // namespace
 
-std::unique_ptr<SmoothOracle> make_implicit_oracle(const ImplicitFunction& function) {
+void check_function(const ImplicitFunction& function) {
   if (!(function.resolution > 0)) throw OptionError("implicit function: the resolution must be positive");
   for (int axis = 0; axis < 3; ++axis) {
     if (!(function.box.max[axis] - function.box.min[axis] > function.resolution)) {
       throw OptionError("implicit function: the box must be wider than the resolution in each direction");
     }
   }
+}
+
+std::unique_ptr<SmoothOracle> make_implicit_oracle(const ImplicitFunction& function) {
+  check_function(function);
   const Volume samples = sample_on_grid(function);
   const LevelSet zero(Isosurface{0, false});
   if (!zero.inside(samples.max()) || zero.inside(samples.min())) {

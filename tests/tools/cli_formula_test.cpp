@@ -1,0 +1,110 @@
+// Formulas on the command line.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/run_delvox.h"
+
+namespace delvox::test {
+namespace {
+
+using nlohmann::json;
+const std::string kBox = "--box=-2:2,-2:2,-2:2";
+
+Outcome run_on(const TemporaryFolder& folder, std::vector<std::string> arguments) {
+  return run_delvox(arguments, {.folder = folder.path()});
+}
+
+TEST(CliFormula, ATorusBecomesASurfaceAndTets) {
+  const TemporaryFolder folder;
+  const std::string torus = "(sqrt(x^2+y^2)-1)^2+z^2-0.1";
+  const Outcome surface = run_on(folder, {"surface", "--implicit", torus, kBox, "-o", "torus.ply"});
+  EXPECT_EQ(surface.code, 0) << surface.err;
+  EXPECT_NE(surface.out.find("genus 1"), std::string::npos) << surface.out;
+  EXPECT_NE(surface.err.find("size 0.1732 mm, 1/40 of the box's diagonal"), std::string::npos) << surface.err;
+  EXPECT_NE(surface.err.find("forecast: about"), std::string::npos) << surface.err;
+
+  const Outcome tet = run_on(folder, {"tet", "--implicit", torus, kBox, "-o", "torus.vtu", "--report", "torus.json"});
+  EXPECT_EQ(tet.code, 0) << tet.err;
+  const json report = json::parse(read_file(folder / "torus.json"));
+  EXPECT_EQ(report["formula"], torus);
+  EXPECT_EQ(report["box"]["max"], json({2, 2, 2}));
+  EXPECT_EQ(run_on(folder, {"check", "torus.vtu"}).code, 0);
+}
+
+TEST(CliFormula, TheNumberOfTetsCanBeAskedFor) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_on(
+      folder, {"tet", "--implicit", "x^2+2*y^2+z^2-1", kBox, "--tets", "5000", "-o", "a.vtu", "--report", "a.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("for 5,000 tets"), std::string::npos) << outcome.err;
+}
+
+TEST(CliFormula, EdgesOfMaxAreMeshedAsTheyCome) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_on(folder, {"surface", "--implicit", "max(abs(x),abs(y),abs(z))-1", kBox, "--size", "0.1", "-o", "cube.stl"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("Euler number 2,"), std::string::npos) << outcome.out;
+}
+
+// The library that derives formulas orders terms by addresses, which differ from run to run.
+TEST(CliFormula, RunsGiveTheSameBytes) {
+  const TemporaryFolder folder;
+  const std::string formula =
+      "sin(3*x)*cos(2*y)*0.3+(x-y+z*0.7)^2+x^2*0.9+y^2*1.1+0.3*z^2-x*y*z*0.1+cos(x-z)/(2+y^2)-1.2";
+  std::string first;
+  for (int run = 0; run < 4; ++run) {
+    const Outcome outcome = run_on(folder, {"tet", "--implicit", formula, kBox, "-o", "out.vtu", "--quiet"});
+    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    const std::string bytes = read_file(folder / "out.vtu");
+    if (run == 0) first = bytes;
+    EXPECT_TRUE(bytes == first) << "run " << run;
+  }
+}
+
+TEST(CliFormula, WhatMakesNoSenseIsAUsageError) {
+  const TemporaryFolder folder;
+  const auto expect_usage_error = [&](std::vector<std::string> arguments, const std::vector<std::string>& words) {
+    arguments.insert(arguments.end(), {"-o", "out.ply", "--quiet"});
+    const Outcome outcome = run_on(folder, arguments);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(line_count(outcome.err), 1u) << outcome.err;
+    for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
+    EXPECT_TRUE(folder.names().empty());
+  };
+  expect_usage_error({"surface", "--implicit", "x^2+", kBox}, {"position 5"});
+  expect_usage_error({"surface", "--implicit", "x^2+y^2+z^2-1"}, {"--box"});
+  expect_usage_error({"surface", kBox}, {"--implicit"});
+  expect_usage_error({"surface"}, {"VOLUME", "--implicit"});
+  expect_usage_error({"surface", "--implicit", "x^2+y^2+z^2-9", kBox}, {"border of the box", "widen"});
+  for (const std::string box : {"0:1,0:1", "0:1,0:1,1:0", "0:1,0:1,0", "0:1,0:1,0:nan", "a:b,0:1,0:1"}) {
+    expect_usage_error({"surface", "--implicit", "x-0.5", "--box=" + box}, {"--box", box});
+  }
+  const std::vector<std::vector<std::string>> of_volumes = {{"--iso", "3"},
+                                                            {"--below"},
+                                                            {"--crop", "0:3,0:3,0:3"},
+                                                            {"--resample", "1"},
+                                                            {"--smooth", "1"},
+                                                            {"--largest"},
+                                                            {"--min-component", "1"},
+                                                            {"--fill-cavities"},
+                                                            {"--border", "open"},
+                                                            {"--spacing", "1,1,1"},
+                                                            {"--volume-index", "1"},
+                                                            {"scan.nii"}};
+  for (const auto& flag : of_volumes) {
+    std::vector<std::string> arguments = {"surface", "--implicit", "x^2+y^2+z^2-1", kBox};
+    arguments.insert(arguments.end(), flag.begin(), flag.end());
+    expect_usage_error(arguments, {"--implicit", "excludes"});
+  }
+}
+
+TEST(CliFormula, NothingInsideTheBoxIsNothingToMesh) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_on(folder, {"tet", "--implicit", "x^2+y^2+z^2+1", kBox, "-o", "out.vtu", "--quiet"});
+  EXPECT_EQ(outcome.code, 4) << outcome.err;
+}
+
+}  // namespace
+}  // namespace delvox::test
