@@ -5,7 +5,9 @@
 delvox_packages=(
   cmake ninja-build g++ ccache
   libcgal-dev libopenvdb-dev libboost-iostreams-dev libtbb-dev libtiff-dev zlib1g-dev libdeflate-dev libginac-dev
+  libhdf5-dev
   nlohmann-json3-dev libcli11-dev libgtest-dev
+  calculix-ccx gmsh python3-meshio python3-h5py python3-dolfinx libmed-tools  # what the tests put our files into
   libcgal-demo  # sample volumes: the liver of the demo and of the tests
 )
 

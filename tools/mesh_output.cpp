@@ -25,7 +25,8 @@ bool same_place(const fs::path& a, const fs::path& b) {
 
 void add_mesh_output_options(CLI::App& app, MeshOutputOptions& options) {
   app.add_option("-o,--output", options.paths,
-                 "Mesh to write; the extension names the format: .vtu .vtk .mesh .msh (4.1; .msh2: 2.2) .inp, and for "
+                 "Mesh to write; the extension names the format: .vtu .vtk .mesh .msh (4.1; .msh2: 2.2) .inp .feb .bdf "
+                 ".unv .med .xdmf, and for "
                  "surfaces .stl .ply .off .obj (of tets: their boundary). Repeat for several")
       ->required()
       ->allow_extra_args(false)
@@ -58,11 +59,14 @@ void check_output(const std::string& path, const fs::path& input) {
 }
 
 void check_mesh_outputs(const std::vector<std::string>& paths, const fs::path& input) {
-  for (std::size_t i = 0; i < paths.size(); ++i) {
-    check_mesh_extension(paths[i]);
-    check_output(paths[i], input);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (same_place(paths[i], paths[j])) throw OptionError(paths[i] + ": given as output twice");
+  std::vector<fs::path> files;
+  for (const std::string& path : paths) {
+    for (const fs::path& file : files_of(path)) {
+      check_output(file.string(), input);
+      for (const fs::path& other : files) {
+        if (same_place(file, other)) throw OptionError(file.string() + ": would be written twice; choose other names");
+      }
+      files.push_back(file);
     }
   }
 }

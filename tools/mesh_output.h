@@ -11,9 +11,9 @@ namespace delvox::tools {
 
 struct MeshOutputOptions {
   std::vector<std::string> paths;
-  std::string unit;                ///< m, mm, or empty: that of the mesh
-  int order = 0;                   ///< of tets: 1 or 2; 0: that of the mesh
-  std::vector<std::string> sets;   ///< NAME=RULE
+  std::string unit;               ///< m, mm, or empty: that of the mesh
+  int order = 0;                  ///< of tets: 1 or 2; 0: that of the mesh
+  std::vector<std::string> sets;  ///< NAME=RULE
 };
 
 /// -o OUT, repeatable, required.

@@ -153,9 +153,12 @@ Json to_json(const Forecast& forecast) {
 }
 
 Json to_json(const MeshInfo& info) {
-  return {{"frame", to_string(info.frame)},       {"isovalue", optional_json(info.isovalue)},
-          {"below", info.below},                  {"open_border", info.open_border},
-          {"complete", info.complete},            {"unit", info.unit == LengthUnit::kMetre ? "m" : "mm"},
+  return {{"frame", to_string(info.frame)},
+          {"isovalue", optional_json(info.isovalue)},
+          {"below", info.below},
+          {"open_border", info.open_border},
+          {"complete", info.complete},
+          {"unit", info.unit == LengthUnit::kMetre ? "m" : "mm"},
           {"promises", to_json(info.promises)}};
 }
 
@@ -210,10 +213,8 @@ Json sets_json(const Mesh& mesh) {
   Json json = Json::array();
   if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
     for (const MeshSet& set : tets->sets) {
-      json.push_back({{"name", set.name},
-                      {"nodes", set.nodes.size()},
-                      {"tets", set.tets.size()},
-                      {"faces", set.faces.size()}});
+      json.push_back(
+          {{"name", set.name}, {"nodes", set.nodes.size()}, {"tets", set.tets.size()}, {"faces", set.faces.size()}});
     }
   }
   return json;

@@ -128,9 +128,10 @@ SetRule parse_rule(const std::string& text, const std::string& rule, const Meshe
 }  // namespace
 
 void add_set_option(CLI::App& app, std::vector<std::string>& sets) {
-  app.add_option("--set", sets,
-                 "Name a place, as nodes, tets and boundary faces: NAME=plane:x,y,z,nx,ny,nz[,MM], box:x0:x1,y0:y1,z0:z1, "
-                 "sphere:x,y,z,MM, normal:x,y,z,DEG, border:xmin (.. zmax), near:x,y,z,MM or all; repeat for several")
+  app.add_option(
+         "--set", sets,
+         "Name a place, as nodes, tets and boundary faces: NAME=plane:x,y,z,nx,ny,nz[,MM], box:x0:x1,y0:y1,z0:z1, "
+         "sphere:x,y,z,MM, normal:x,y,z,DEG, border:xmin (.. zmax), near:x,y,z,MM or all; repeat for several")
       ->allow_extra_args(false)
       ->type_name("NAME=RULE");
 }

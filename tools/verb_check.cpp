@@ -38,7 +38,8 @@ void add_bound(CLI::App& app, const std::string& flag, std::optional<double>& bo
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("MESH", options.meshes, "Meshes: .vtu .vtk .stl .ply .off .obj .mesh .msh .inp")->required();
+  app.add_option("MESH", options.meshes, "Meshes: .vtu .vtk .stl .ply .off .obj .mesh .msh .inp .feb .bdf .unv")
+      ->required();
   auto* volume = app.add_option("--volume", options.volume.path, "Compare with this volume, preprocessed as below");
   volume->type_name("VOLUME");
   add_isovalue_options(app, options.isosurface);

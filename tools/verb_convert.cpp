@@ -18,7 +18,8 @@ void run_convert(const Verb& verb, const Arguments& arguments) {
   std::string path;
   MeshOutputOptions output;
   ConsoleOptions console_options;
-  app.add_option("MESH", path, "Mesh to read: .vtu .vtk .stl .ply .off .obj .mesh .msh .inp")->required();
+  app.add_option("MESH", path, "Mesh to read: .vtu .vtk .stl .ply .off .obj .mesh .msh .inp .feb .bdf .unv")
+      ->required();
   add_mesh_output_options(app, output);
   add_tet_output_options(app, output);
   const ThreadLimit threads(app);

@@ -17,8 +17,8 @@ constexpr std::size_t kChunk = 8192;
 /// the centroid.
 std::vector<Point3> sample_points() {
   constexpr double kNear = 0.58541019662496852, kFar = 0.1381966011250105;
-  return {{0, 0, 0},         {1, 0, 0},         {0, 1, 0},         {0, 0, 1},         {0.5, 0, 0},
-          {0.5, 0.5, 0},     {0, 0.5, 0},       {0, 0, 0.5},       {0.5, 0, 0.5},     {0, 0.5, 0.5},
+  return {{0, 0, 0},          {1, 0, 0},           {0, 1, 0},           {0, 0, 1},           {0.5, 0, 0},
+          {0.5, 0.5, 0},      {0, 0.5, 0},         {0, 0, 0.5},         {0.5, 0, 0.5},       {0, 0.5, 0.5},
           {kFar, kFar, kFar}, {kNear, kFar, kFar}, {kFar, kNear, kFar}, {kFar, kFar, kNear}, {0.25, 0.25, 0.25}};
 }
 
@@ -95,8 +95,8 @@ std::vector<EdgeNode> edge_nodes(const TetMesh& mesh) {
   };
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     for (std::size_t e = 0; e < 6; ++e) {
-      add(mesh.tets[t][static_cast<std::size_t>(kTetEdges[e][0])], mesh.tets[t][static_cast<std::size_t>(kTetEdges[e][1])],
-          mesh.mid_nodes[t][e], false);
+      add(mesh.tets[t][static_cast<std::size_t>(kTetEdges[e][0])],
+          mesh.tets[t][static_cast<std::size_t>(kTetEdges[e][1])], mesh.mid_nodes[t][e], false);
     }
   }
   for (TetFace face : boundary_faces(mesh.tets)) {

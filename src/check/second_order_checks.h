@@ -9,8 +9,8 @@ namespace delvox::check {
 
 /// The checks of tets with mid-side nodes.
 struct SecondOrderQuality {
-  Tally not_shared;    ///< edges that two tets give different nodes, nodes that two edges share, corners as mid nodes
-  Extreme jacobian;    ///< least determinant at nodes and Gauss points, over the greatest there; violations: not positive
+  Tally not_shared;  ///< edges that two tets give different nodes, nodes that two edges share, corners as mid nodes
+  Extreme jacobian;  ///< least determinant at nodes and Gauss points, over the greatest there; violations: not positive
   std::vector<std::uint32_t> on_boundary;  ///< mid-side nodes of boundary edges, rising
 };
 

@@ -8,7 +8,9 @@
 namespace delvox {
 namespace {
 
-Vector3 unit(const Vector3& v) { return (1 / norm(v)) * v; }
+Vector3 unit(const Vector3& v) {
+  return (1 / norm(v)) * v;
+}
 
 class Selector {
  public:
@@ -36,9 +38,8 @@ class Selector {
     std::vector<TetFace> faces = facing(rule.outward, kDegrees);
     std::erase_if(faces, [&](TetFace face) {
       const Triangle corners = face_corners(mesh_.tets, face);
-      return std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
-        return dot(mesh_.points[v] - rule.point, rule.outward) < 0;
-      });
+      return std::any_of(corners.begin(), corners.end(),
+                         [&](std::uint32_t v) { return dot(mesh_.points[v] - rule.point, rule.outward) < 0; });
     });
     return of_faces(std::move(faces));
   }
@@ -120,9 +121,8 @@ MeshSet Selector::select(const NearRule& rule) const {
     waiting.pop_back();
     for (std::size_t f : faces_at[at]) {
       const Triangle corners = face_corners(mesh_.tets, faces_[f]);
-      if (taken[f] || std::any_of(corners.begin(), corners.end(), [&](std::uint32_t v) {
-            return distance(mesh_.points[v], place) > rule.radius;
-          })) {
+      if (taken[f] || std::any_of(corners.begin(), corners.end(),
+                                  [&](std::uint32_t v) { return distance(mesh_.points[v], place) > rule.radius; })) {
         continue;
       }
       taken[f] = true;

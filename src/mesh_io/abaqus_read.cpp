@@ -7,7 +7,9 @@
 #include "mesh_io/abaqus_names.h"
 #include "mesh_io/formats.h"
 #include "mesh_io/header_comment.h"
+#include "mesh_io/node_order.h"
 #include "mesh_io/numbered_mesh.h"
+#include "mesh_io/region_name.h"
 
 namespace delvox::mesh_io {
 namespace {
@@ -68,7 +70,7 @@ Keyword parse_keyword(std::string_view line) {
 
 class Reader {
  public:
-  explicit Reader(const Source& source) : source_(source), cursor_(source, source.bytes) {}
+  explicit Reader(const Source& source) : source_(source), cursor_(source, source.bytes), regions_(source) {}
 
   RawMesh read() {
     mesh_.coordinate_error = kRoundingOf12Digits;
@@ -122,19 +124,7 @@ class Reader {
     if (type_.kind == CellKind::kIgnored) return;
     section_ = Section::kElements;
     const auto elset = keyword.parameters.find("ELSET");
-    region_ = region_of(elset == keyword.parameters.end() ? "" : elset->second);
-  }
-
-  /// Our own names carry the number; others are counted as they come.
-  std::int64_t region_of(const std::string& elset) {
-    if (elset.starts_with(kRegionPrefix)) {
-      const std::string_view number = std::string_view(elset).substr(kRegionPrefix.size());
-      const std::size_t digits = number.starts_with('-') ? 1 : 0;
-      if (number.size() > digits && number.find_first_not_of("0123456789", digits) == std::string_view::npos) {
-        return parse_integer(source_, number);
-      }
-    }
-    return region_names_.try_emplace(elset, static_cast<std::int64_t>(region_names_.size()) + 1).first->second;
+    region_ = regions_.number(elset == keyword.parameters.end() ? "" : elset->second);
   }
 
   void finish_section() {
@@ -180,7 +170,9 @@ class Reader {
         }
         const auto earlier = ranges_of_.find({section_, upper_case(field)});
         if (earlier == ranges_of_.end() || &earlier->second == &ranges) continue;
-        if (ranges.size() + earlier->second.size() > source_.bytes.size()) source_.fail("its sets name each other too often");
+        if (ranges.size() + earlier->second.size() > source_.bytes.size()) {
+          source_.fail("its sets name each other too often");
+        }
         ranges.insert(ranges.end(), earlier->second.begin(), earlier->second.end());
       }
     }
@@ -230,7 +222,7 @@ class Reader {
   std::string type_name_;
   ElementType type_;
   std::int64_t region_ = 1;
-  std::map<std::string, std::int64_t> region_names_;
+  NamedRegions regions_;
   std::string set_;        ///< being listed
   bool generate_ = false;  ///< as ranges
   std::map<std::pair<Section, std::string>, std::vector<NumberRange>> ranges_of_;

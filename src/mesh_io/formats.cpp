@@ -1,6 +1,7 @@
 #include "mesh_io/formats.h"
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,7 @@ namespace delvox {
 namespace {
 
 using namespace mesh_io;
+namespace fs = std::filesystem;
 
 enum class Holds { kSurfaces, kTets, kTetsAndTheirBoundary };
 
@@ -21,7 +23,15 @@ struct Format {
   const char* name;
   Holds holds;
   void (*write)(const MeshView&, Out&);
-  RawMesh (*read)(const Source&);
+  RawMesh (*read)(const Source&);  ///< null: is only written
+};
+
+/// Files that one extension needs beside its own, under the same stem.
+struct Companion {
+  std::string_view extension;
+  const char* suffix;
+  void (*write)(const MeshView&, Out&);
+  bool (*needed)(const MeshView&);
 };
 
 constexpr Format kFormats[] = {
@@ -35,9 +45,25 @@ constexpr Format kFormats[] = {
     {".msh", "Gmsh MSH", Holds::kTetsAndTheirBoundary, write_gmsh41, read_gmsh},
     {".msh2", "Gmsh MSH", Holds::kTetsAndTheirBoundary, write_gmsh22, read_gmsh},
     {".inp", "Abaqus INP", Holds::kTetsAndTheirBoundary, write_abaqus, read_abaqus},
+    {".feb", "FEBio", Holds::kTets, write_febio, read_febio},
+    {".bdf", "Nastran", Holds::kTets, write_nastran, read_nastran},
+    {".nas", "Nastran", Holds::kTets, write_nastran, read_nastran},
+    {".unv", "I-DEAS UNV", Holds::kTetsAndTheirBoundary, write_unv, read_unv},
+    {".med", "MED", Holds::kTetsAndTheirBoundary, write_med, nullptr},
+    {".xdmf", "XDMF", Holds::kTets, write_xdmf, nullptr},
 };
 
-const Format* find_format(const std::filesystem::path& path) {
+bool has_face_sets(const MeshView& mesh) {
+  return std::any_of(mesh.sets.begin(), mesh.sets.end(), [](const MeshSet& set) { return !set.faces.empty(); });
+}
+
+constexpr Companion kCompanions[] = {
+    {".xdmf", ".h5", write_xdmf_arrays, [](const MeshView&) { return true; }},
+    {".xdmf", "_facets.xdmf", write_xdmf_facets, has_face_sets},
+    {".xdmf", "_facets.h5", write_xdmf_facet_arrays, has_face_sets},
+};
+
+const Format* find_format(const fs::path& path) {
   std::string extension = path.extension().string();
   for (char& c : extension) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -47,35 +73,62 @@ const Format* find_format(const std::filesystem::path& path) {
   return found == std::end(kFormats) ? nullptr : found;
 }
 
-std::string unknown_extension(const std::filesystem::path& path) {
+std::string unknown_extension(const fs::path& path) {
   std::string message = path.string() + ": no mesh format has the extension " + in_quotes(path.extension().string()) +
                         "; use one of";
   for (const Format& format : kFormats) message += " " + std::string(format.extension);
   return message;
 }
 
-const Format& format_to_write(const std::filesystem::path& path) {
+const Format& format_to_write(const fs::path& path) {
   const Format* format = find_format(path);
   if (format == nullptr) throw OptionError(unknown_extension(path));
   return *format;
 }
 
 /// The points in the unit that the file is to have; `scaled` keeps them if they differ.
-std::span<const Point3> points_in_unit(const std::vector<Point3>& points, LengthUnit unit, std::vector<Point3>& scaled) {
+std::span<const Point3> points_in_unit(const std::vector<Point3>& points, LengthUnit unit,
+                                       std::vector<Point3>& scaled) {
   if (unit == LengthUnit::kMillimetre) return points;
   scaled.reserve(points.size());
   for (const Point3& p : points) scaled.push_back({p.x / kMmPerMetre, p.y / kMmPerMetre, p.z / kMmPerMetre});
   return scaled;
 }
 
-void write_surface(const SurfaceMesh& mesh, const Format& format, Out& out) {
-  std::vector<Point3> scaled;
-  format.write({points_in_unit(mesh.points, mesh.info.unit, scaled), mesh.triangles, {}, {}, {}, mesh.info, false}, out);
+fs::path beside(const fs::path& path, const char* suffix) {
+  fs::path result = path.parent_path() / path.stem();
+  result += suffix;
+  return result;
 }
 
-void write_tets(const TetMesh& mesh, const Format& format, Out& out) {
+/// Writes a file and its companions, which appear before it does.
+void write_files(MeshView mesh, const Format& format, const fs::path& path) {
+  mesh.stem = path.stem().string();
+  const auto write = [&](OutputFile& file, const auto& write_to) {
+    Out out(file.stream());
+    write_to(mesh, out);
+  };
+  std::vector<std::unique_ptr<OutputFile>> companions;
+  for (const Companion& companion : kCompanions) {
+    if (companion.extension != format.extension || !companion.needed(mesh)) continue;
+    companions.push_back(std::make_unique<OutputFile>(beside(path, companion.suffix)));
+    write(*companions.back(), companion.write);
+  }
+  OutputFile file(path);
+  write(file, format.write);
+  for (const auto& companion : companions) companion->commit();
+  file.commit();
+}
+
+void write_surface(const SurfaceMesh& mesh, const Format& format, const fs::path& path) {
+  std::vector<Point3> scaled;
+  write_files({points_in_unit(mesh.points, mesh.info.unit, scaled), mesh.triangles, {}, {}, {}, mesh.info, false},
+              format, path);
+}
+
+void write_tets(const TetMesh& mesh, const Format& format, const fs::path& path) {
   if (format.holds == Holds::kSurfaces) {
-    write_surface(boundary_surface(mesh), format, out);
+    write_surface(boundary_surface(mesh), format, path);
     return;
   }
   std::vector<TetFace> faces;
@@ -88,32 +141,38 @@ void write_tets(const TetMesh& mesh, const Format& format, Out& out) {
   }
   const std::vector<Triangle>& boundary = lacking ? computed : mesh.boundary;
   std::vector<Point3> scaled;
-  format.write({points_in_unit(mesh.points, mesh.info.unit, scaled), boundary, mesh.tets, mesh.regions, mesh.on_surface,
-                mesh.info, true, faces, mesh.mid_nodes, mesh.sets, mesh.materials},
-               out);
+  write_files({points_in_unit(mesh.points, mesh.info.unit, scaled), boundary, mesh.tets, mesh.regions, mesh.on_surface,
+               mesh.info, true, faces, mesh.mid_nodes, mesh.sets, mesh.materials},
+              format, path);
 }
 
 }  // namespace
 
-void check_mesh_extension(const std::filesystem::path& path) { format_to_write(path); }
+std::vector<std::filesystem::path> files_of(const std::filesystem::path& path) {
+  const Format& format = format_to_write(path);
+  std::vector<fs::path> files{path};
+  for (const Companion& companion : kCompanions) {
+    if (companion.extension == format.extension) files.push_back(beside(path, companion.suffix));
+  }
+  return files;
+}
 
 void write_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   const Format& format = format_to_write(path);
-  OutputFile file(path);
-  {
-    Out out(file.stream());
-    if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
-      write_tets(*tets, format, out);
-    } else {
-      write_surface(std::get<SurfaceMesh>(mesh), format, out);
-    }
+  if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
+    write_tets(*tets, format, path);
+  } else {
+    write_surface(std::get<SurfaceMesh>(mesh), format, path);
   }
-  file.commit();
 }
 
 MeshFile read_mesh(const std::filesystem::path& path) {
   const Format* format = find_format(path);
   if (format == nullptr) throw InputError(unknown_extension(path));
+  if (format->read == nullptr) {
+    throw InputError(path.string() + ": " + format->name +
+                     " files are written, not read; give the mesh in another format");
+  }
   const Source source = load_source(path);
   RawMesh raw = format->read(source);
   double coordinate_error = raw.coordinate_error;

@@ -17,6 +17,15 @@ void write_medit(const MeshView& mesh, Out& out);
 void write_gmsh41(const MeshView& mesh, Out& out);
 void write_gmsh22(const MeshView& mesh, Out& out);
 void write_abaqus(const MeshView& mesh, Out& out);
+void write_febio(const MeshView& mesh, Out& out);
+void write_nastran(const MeshView& mesh, Out& out);
+void write_unv(const MeshView& mesh, Out& out);
+void write_med(const MeshView& mesh, Out& out);
+// A mesh and its arrays, sets of faces and their arrays; the first and third name the others by MeshView::stem.
+void write_xdmf(const MeshView& mesh, Out& out);
+void write_xdmf_arrays(const MeshView& mesh, Out& out);
+void write_xdmf_facets(const MeshView& mesh, Out& out);
+void write_xdmf_facet_arrays(const MeshView& mesh, Out& out);
 
 RawMesh read_vtu(const Source& source);
 RawMesh read_legacy_vtk(const Source& source);
@@ -27,5 +36,8 @@ RawMesh read_obj(const Source& source);
 RawMesh read_medit(const Source& source);
 RawMesh read_gmsh(const Source& source);
 RawMesh read_abaqus(const Source& source);
+RawMesh read_febio(const Source& source);
+RawMesh read_nastran(const Source& source);
+RawMesh read_unv(const Source& source);
 
 }  // namespace delvox::mesh_io

@@ -8,6 +8,7 @@
 #include "mesh_io/node_order.h"
 #include "mesh_io/number_type.h"
 #include "mesh_io/numbered_mesh.h"
+#include "mesh_io/set_suffix.h"
 
 namespace delvox::mesh_io {
 namespace {
@@ -145,7 +146,9 @@ class Reader {
       if (dimension == 3 && i == 0) {
         region_of_volume_[tag] = group;
       } else if (const auto name = names_.find({dimension, group}); dimension >= 2 && name != names_.end()) {
-        if (name->second != kBoundaryGroup) sets_of_entity_[{dimension, tag}].push_back(name->second);
+        if (name->second == kBoundaryGroup) continue;
+        sets_of_entity_[{dimension, tag}].push_back(dimension == 3 ? without_suffix(name->second, kTetsSuffix)
+                                                                   : name->second);
       }
     }
     if (dimension == 0) return;

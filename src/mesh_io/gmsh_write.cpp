@@ -1,6 +1,6 @@
 // Gmsh MSH 4.1 and 2.2 as text: https://gmsh.info/doc/texinfo/gmsh.html#Gmsh-file-formats
-// Physical groups: the boundary, each region of tets, and (4.1) each set, of faces and of tets. Where sets overlap, cells
-// are parted into entities by the sets they belong to, so that no cell is written twice.
+// Physical groups: the boundary, each region of tets, and (4.1) each set, of faces and of tets. Where sets overlap,
+// cells are parted into entities by the sets they belong to, so that no cell is written twice.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -8,6 +8,7 @@
 
 #include "mesh_io/formats.h"
 #include "mesh_io/header_comment.h"
+#include "mesh_io/set_suffix.h"
 
 namespace delvox::mesh_io {
 namespace {
@@ -15,8 +16,12 @@ namespace {
 constexpr int kSurface = 1;  // the boundary's physical group, and in 2.2 its entity
 constexpr int kSetsFrom = 2;
 
-int triangle_type(const MeshView& mesh) { return mesh.second_order() ? 9 : 2; }
-int tet_type(const MeshView& mesh) { return mesh.second_order() ? 11 : 4; }
+int triangle_type(const MeshView& mesh) {
+  return mesh.second_order() ? 9 : 2;
+}
+int tet_type(const MeshView& mesh) {
+  return mesh.second_order() ? 11 : 4;
+}
 
 /// Cells of one entity, and the physical groups it belongs to. Entities count from 1 in each dimension.
 struct Entity {
@@ -54,10 +59,10 @@ void write_head(const char* version, const MeshView& mesh, const Regions& region
     names.push_back("3 " + std::to_string(region) + " \"" + mesh.region_name(region) + "\"");
   }
   for (std::size_t s = 0; with_sets && s < mesh.sets.size(); ++s) {
-    const std::string rest = " " + std::to_string(first_set_group(regions) + static_cast<std::int64_t>(s)) + " \"" +
-                             mesh.sets[s].name + "\"";
-    if (!mesh.sets[s].faces.empty()) names.push_back("2" + rest);
-    if (!mesh.sets[s].tets.empty()) names.push_back("3" + rest);
+    const MeshSet& set = mesh.sets[s];
+    const std::string group = " " + std::to_string(first_set_group(regions) + static_cast<std::int64_t>(s)) + " \"";
+    if (!set.faces.empty()) names.push_back("2" + group + set.name + "\"");
+    if (!set.tets.empty()) names.push_back("3" + group + set.name + kTetsSuffix + "\"");
   }
   out.put("$PhysicalNames\n", names.size(), '\n');
   for (const std::string& name : names) out.put(name, '\n');

@@ -29,17 +29,18 @@ class CellNodes {
 /// A mesh to be written, in the unit of the file: a surface, or tets and their boundary.
 struct MeshView {
   std::span<const Point3> points;
-  std::span<const Triangle> triangles;           ///< the surface, or the boundary of the tets
-  std::span<const Tet> tets;                     ///< empty for a surface
-  std::span<const Label> regions;                ///< one per tet, or empty: all 1
-  std::span<const std::uint8_t> on_surface;      ///< one per point, or empty: not known
+  std::span<const Triangle> triangles;       ///< the surface, or the boundary of the tets
+  std::span<const Tet> tets;                 ///< empty for a surface
+  std::span<const Label> regions;            ///< one per tet, or empty: all 1
+  std::span<const std::uint8_t> on_surface;  ///< one per point, or empty: not known
   const MeshInfo& info;
   bool is_tet_mesh;
-  std::span<const TetFace> faces = {};           ///< the boundary triangles as faces of tets, rising; if there are sets
-                                                 ///< or mid-side nodes
-  std::span<const MidNodes> mid_nodes = {};      ///< one per tet, or empty: first order
+  std::span<const TetFace> faces = {};       ///< the boundary triangles as faces of tets, rising; if there are sets
+                                             ///< or mid-side nodes
+  std::span<const MidNodes> mid_nodes = {};  ///< one per tet, or empty: first order
   std::span<const MeshSet> sets = {};
   std::span<const Material> materials = {};
+  std::string stem = {};  ///< the file's name without its extension, for files that name others
 
   bool second_order() const { return !mid_nodes.empty(); }
   Label region(std::size_t tet) const { return regions.empty() ? 1 : regions[tet]; }

@@ -25,6 +25,30 @@ void NumberedMesh::sort_nodes() {
   std::sort(numbers_.begin(), numbers_.end());
 }
 
+std::int64_t NumberedMesh::find_node(std::int64_t number) const {
+  if (numbers_.empty()) return -1;
+  // Differences of unsigned numbers cannot overflow.
+  const std::uint64_t first = static_cast<std::uint64_t>(numbers_.front());
+  const bool in_a_row = static_cast<std::uint64_t>(numbers_.back()) - first == numbers_.size() - 1;
+  if (in_a_row) {
+    const std::uint64_t index = static_cast<std::uint64_t>(number) - first;
+    return index < numbers_.size() ? static_cast<std::int64_t>(index) : -1;
+  }
+  const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), number);
+  return found != numbers_.end() && *found == number ? found - numbers_.begin() : -1;
+}
+
+std::vector<NumberedMesh::Element>::const_iterator NumberedMesh::first_element(std::int64_t number) const {
+  return std::lower_bound(elements_.begin(), elements_.end(), number,
+                          [](const Element& element, std::int64_t wanted) { return element.number < wanted; });
+}
+
+std::int64_t NumberedMesh::tet_numbered(std::int64_t number, const std::vector<std::int64_t>& tet_of) const {
+  const auto at = first_element(number);
+  if (at == elements_.end() || at->number != number) return -1;
+  return tet_of[static_cast<std::size_t>(at - elements_.begin())];
+}
+
 void NumberedMesh::move_into(const Source& source, RawMesh& mesh) {
   sort_nodes();
   const auto twice = std::adjacent_find(numbers_.begin(), numbers_.end());
@@ -32,18 +56,10 @@ void NumberedMesh::move_into(const Source& source, RawMesh& mesh) {
     source.fail("two nodes have the number " + std::to_string(*twice),
                 "does it hold several parts? write them to files of their own");
   }
-  // Differences of unsigned numbers cannot overflow.
-  const std::uint64_t first = numbers_.empty() ? 0 : static_cast<std::uint64_t>(numbers_.front());
-  const bool in_a_row = !numbers_.empty() && static_cast<std::uint64_t>(numbers_.back()) - first == numbers_.size() - 1;
   const auto index_of = [&](std::int64_t number) {
-    if (in_a_row) {
-      const std::uint64_t index = static_cast<std::uint64_t>(number) - first;
-      if (index < numbers_.size()) return static_cast<std::int64_t>(index);
-    } else {
-      const auto found = std::lower_bound(numbers_.begin(), numbers_.end(), number);
-      if (found != numbers_.end() && *found == number) return static_cast<std::int64_t>(found - numbers_.begin());
-    }
-    source.fail("an element names node " + std::to_string(number) + ", which there is not");
+    const std::int64_t index = find_node(number);
+    if (index < 0) source.fail("an element names node " + std::to_string(number) + ", which there is not");
+    return index;
   };
   const auto by_number = [](const Element& a, const Element& b) { return a.number < b.number; };
   if (!std::is_sorted(elements_.begin(), elements_.end(), by_number)) {
@@ -79,10 +95,6 @@ void NumberedMesh::fill_sets(const Source& source, const std::vector<std::int64_
       if (in_range(range, *at)) set.nodes.push_back(static_cast<std::uint32_t>(at - numbers_.begin()));
     }
   }
-  const auto first_element = [&](std::int64_t number) {
-    return std::lower_bound(elements_.begin(), elements_.end(), number,
-                            [](const Element& element, std::int64_t wanted) { return element.number < wanted; });
-  };
   for (const auto& [name, range] : element_sets_) {
     RawSet& set = mesh.set(name);
     for (auto at = first_element(range.first); at != elements_.end() && at->number <= range.last; ++at) {
@@ -99,10 +111,26 @@ void NumberedMesh::fill_sets(const Source& source, const std::vector<std::int64_
     }
   }
   for (const FaceOfSet& member : face_sets_) {
-    const auto at = first_element(member.element);
-    if (at == elements_.end() || at->number != member.element) continue;
-    const std::int64_t tet = tet_of[static_cast<std::size_t>(at - elements_.begin())];
+    const std::int64_t tet = tet_numbered(member.element, tet_of);
     if (tet >= 0) mesh.set(member.set).faces.push_back({static_cast<std::uint32_t>(tet), member.face});
+  }
+  for (const OppositeFace& member : opposite_faces_) {
+    const std::int64_t tet = tet_numbered(member.element, tet_of), corner = find_node(member.corner);
+    if (tet < 0 || corner < 0) continue;
+    const Tet& corners = mesh.tets[static_cast<std::size_t>(tet)];
+    for (std::uint8_t face = 0; face < 4; ++face) {
+      if (corners[face] == corner) mesh.set(member.set).faces.push_back({static_cast<std::uint32_t>(tet), face});
+    }
+  }
+  for (const auto& [name, corners] : triangles_) {
+    Triangle triangle{};
+    bool known = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int64_t node = find_node(corners[i]);
+      known = known && node >= 0;
+      triangle[i] = static_cast<std::uint32_t>(std::max<std::int64_t>(node, 0));
+    }
+    if (known) mesh.set(name).triangles.push_back(triangle);
   }
 }
 

@@ -142,7 +142,8 @@ std::vector<MeshSet> RawMesh::finished_sets(const Source& source, const std::vec
     std::sort(t.begin(), t.end());
     return t;
   };
-  const bool by_corners = std::any_of(sets.begin(), sets.end(), [](const auto& s) { return !s.second.triangles.empty(); });
+  const bool by_corners =
+      std::any_of(sets.begin(), sets.end(), [](const auto& s) { return !s.second.triangles.empty(); });
   if (by_corners) {
     for (TetFace face : boundary_faces(tets)) face_of.emplace(sorted(face_corners(tets, face)), face);
   }

@@ -46,7 +46,7 @@ struct RawMesh {
   MeshInfo info;
   double coordinate_error = 0;
   std::vector<std::pair<std::string, RawSet>> sets;
-  std::vector<MidNodes> mid_nodes;        ///< of tets of second order; whole if as many as tets
+  std::vector<MidNodes> mid_nodes;  ///< of tets of second order; whole if as many as tets
 
   /// The set of that name, made if there is none.
   RawSet& set(const std::string& name);

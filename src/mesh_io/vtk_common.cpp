@@ -41,7 +41,8 @@ CellKind vtk_cell_kind(std::int64_t vtk_type) {
     case kVtkTriangle: case 22: return CellKind::kTriangle;
     case 6: return CellKind::kStrip;
     case 7: case 9: return CellKind::kPolygon;
-    case kVtkTet: case kVtkQuadraticTet: return CellKind::kTet;
+    case kVtkTet:
+    case kVtkQuadraticTet: return CellKind::kTet;
     default: return CellKind::kUnsupported;
   }
 }

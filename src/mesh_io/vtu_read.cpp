@@ -87,7 +87,8 @@ class PieceReader {
     for_each_set(piece.child("PointData"), kSetNodes, count, [&](const std::string& name, const auto& values) {
       RawSet& set = mesh_.set(name);
       for (std::size_t i = 0; i < count; ++i) {
-        if (values[i] != 0) set.nodes.push_back(static_cast<std::uint32_t>(first_point) + static_cast<std::uint32_t>(i));
+        if (values[i] != 0)
+          set.nodes.push_back(static_cast<std::uint32_t>(first_point) + static_cast<std::uint32_t>(i));
       }
     });
   }

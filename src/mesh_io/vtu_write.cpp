@@ -180,7 +180,7 @@ void add_cells(const MeshView& mesh, VtuBody& body) {
   body.array<std::int64_t>("offsets", "Int64", 1, count,
                            [&](std::size_t i) { return static_cast<std::int64_t>(nodes * (i + 1)); });
   body.array<std::uint8_t>("types", "UInt8", 1, count, [&](std::size_t) {
-    return static_cast<std::uint8_t>(!mesh.is_tet_mesh      ? kVtkTriangle
+    return static_cast<std::uint8_t>(!mesh.is_tet_mesh     ? kVtkTriangle
                                      : mesh.second_order() ? kVtkQuadraticTet
                                                            : kVtkTet);
   });

@@ -154,13 +154,14 @@ void Builder::curve(BoundaryEdge& edge) {
   report_.where_not_found = middle;
 }
 
-// With x = sum L_i p_i + sum over edges of 4 L_a L_b d_e, d_e how far the mid-side node is off the middle, the columns of
-// the Jacobian matrix are dx/dL_i - dx/dL_0.
+// With x = sum L_i p_i + sum over edges of 4 L_a L_b d_e, d_e how far the mid-side node is off the middle, the columns
+// of the Jacobian matrix are dx/dL_i - dx/dL_0.
 double Builder::least_jacobian_ratio(std::uint32_t tet) const {
   const Tet& v = mesh_.tets[tet];
   std::array<Vector3, 6> off;
   for (std::size_t e = 0; e < 6; ++e) {
-    const std::uint32_t a = v[static_cast<std::size_t>(kTetEdges[e][0])], b = v[static_cast<std::size_t>(kTetEdges[e][1])];
+    const std::uint32_t a = v[static_cast<std::size_t>(kTetEdges[e][0])],
+                        b = v[static_cast<std::size_t>(kTetEdges[e][1])];
     off[e] = mesh_.points[mesh_.mid_nodes[tet][e]] - midpoint(mesh_.points[a], mesh_.points[b]);
   }
   const auto determinant = [](const std::array<Vector3, 4>& d) {
@@ -239,7 +240,9 @@ void Builder::mark_on_surface() {
 
 }  // namespace
 
-SecondOrderReport make_second_order(TetMesh& mesh, const Oracle* oracle) { return Builder(mesh, oracle).run(); }
+SecondOrderReport make_second_order(TetMesh& mesh, const Oracle* oracle) {
+  return Builder(mesh, oracle).run();
+}
 
 void make_first_order(TetMesh& mesh) {
   std::vector<std::uint8_t> goes(mesh.points.size(), 0);

@@ -14,7 +14,9 @@ TetMesh quadratic_cube() {
   return mesh;
 }
 
-CheckStatus status(const TetMesh& mesh, const char* name) { return check_mesh(mesh).find(name)->status; }
+CheckStatus status(const TetMesh& mesh, const char* name) {
+  return check_mesh(mesh).find(name)->status;
+}
 
 TEST(SecondOrderChecks, StraightTetsHold) {
   const TetMesh mesh = quadratic_cube();

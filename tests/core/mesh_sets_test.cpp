@@ -11,7 +11,9 @@ namespace {
 
 using test::cube_mesh;
 
-MeshSet find(const TetMesh& mesh, const SetRule& rule) { return select_sets(mesh, {{"it", rule}}).at(0); }
+MeshSet find(const TetMesh& mesh, const SetRule& rule) {
+  return select_sets(mesh, {{"it", rule}}).at(0);
+}
 
 double area(const TetMesh& mesh, const MeshSet& set) {
   double sum = 0;
@@ -87,7 +89,8 @@ TEST(MeshSets, NearDoesNotJumpAGap) {
 
 TEST(MeshSets, ListsRise) {
   const TetMesh mesh = cube_mesh(3);
-  for (const SetRule& rule : {SetRule{AllRule{}}, SetRule{NormalRule{{1, 1, 1}, 90}}, SetRule{NearRule{{0, 0, 0}, 2}}}) {
+  for (const SetRule& rule :
+       {SetRule{AllRule{}}, SetRule{NormalRule{{1, 1, 1}, 90}}, SetRule{NearRule{{0, 0, 0}, 2}}}) {
     const MeshSet set = find(mesh, rule);
     EXPECT_TRUE(std::is_sorted(set.nodes.begin(), set.nodes.end()));
     EXPECT_TRUE(std::is_sorted(set.tets.begin(), set.tets.end()));

@@ -127,7 +127,7 @@ TEST_P(HostileFile, MissingEmptyOrAFolderIsAnError) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, HostileFile,
                          ::testing::Values(".vtu", ".vtk", ".stl", ".ply", ".off", ".obj", ".mesh", ".msh", ".msh2",
-                                           ".inp"),
+                                           ".inp", ".feb", ".bdf", ".unv"),
                          [](const auto& extension) { return std::string(extension.param).substr(1); });
 
 struct Lie {

@@ -141,18 +141,21 @@ TEST_P(EveryFormat, ExtensionMayBeInCapitals) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, EveryFormat,
                          ::testing::Values(".vtu", ".vtk", ".stl", ".ply", ".off", ".obj", ".mesh", ".msh", ".msh2",
-                                           ".inp"),
+                                           ".inp", ".feb", ".bdf", ".nas", ".unv"),
                          [](const auto& extension) { return std::string(extension.param).substr(1); });
 
 TEST(WriteMesh, NamesTheFormatsWhenTheExtensionIsUnknown) {
   try {
-    check_mesh_extension("mesh.docx");
+    files_of("mesh.docx");
     FAIL();
   } catch (const OptionError& error) {
     EXPECT_NE(std::string(error.what()).find(".vtu"), std::string::npos);
   }
-  EXPECT_THROW(check_mesh_extension("mesh"), OptionError);
-  EXPECT_NO_THROW(check_mesh_extension("a.b/mesh.STL"));
+  EXPECT_THROW(files_of("mesh"), OptionError);
+  EXPECT_EQ(files_of("a.b/mesh.STL"), std::vector<std::filesystem::path>{"a.b/mesh.STL"});
+  EXPECT_EQ(files_of("a.b/mesh.xdmf"),
+            (std::vector<std::filesystem::path>{"a.b/mesh.xdmf", "a.b/mesh.h5", "a.b/mesh_facets.xdmf",
+                                                "a.b/mesh_facets.h5"}));
 }
 
 TEST(WriteMesh, RefusesAPathThatIsAFolder) {

@@ -52,19 +52,27 @@ TEST_P(TetFormat, InMetresComesBackInMillimetres) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, TetFormat, ::testing::Values(".vtu", ".vtk", ".mesh", ".msh", ".msh2", ".inp"),
+INSTANTIATE_TEST_SUITE_P(Formats, TetFormat,
+                         ::testing::Values(".vtu", ".vtk", ".mesh", ".msh", ".msh2", ".inp", ".feb", ".bdf", ".unv"),
                          [](const auto& extension) { return std::string(extension.param).substr(1); });
 
 TEST(Sets, SurviveVtuWhole) {
   const TetMesh written = awkward_tets_with_sets();
   const TetMesh read = there_and_back(written, ".vtu");
   ASSERT_EQ(read.sets.size(), written.sets.size());
-  for (const MeshSet& set : written.sets) EXPECT_NE(std::find(read.sets.begin(), read.sets.end(), set), read.sets.end());
+  for (const MeshSet& set : written.sets)
+    EXPECT_NE(std::find(read.sets.begin(), read.sets.end(), set), read.sets.end());
 }
 
-TEST(Sets, SurviveAbaqusWhole) {
+TEST(Sets, SurviveSolversFormatsWhole) {
   const TetMesh written = awkward_tets_with_sets();
-  EXPECT_EQ(there_and_back(written, ".inp").sets, written.sets);
+  for (const char* extension : {".inp", ".bdf", ".unv", ".feb"}) {
+    const TetMesh read = there_and_back(written, extension);
+    EXPECT_EQ(read.sets.size(), written.sets.size()) << extension;
+    for (const MeshSet& set : written.sets) {
+      EXPECT_NE(std::find(read.sets.begin(), read.sets.end(), set), read.sets.end()) << extension << " " << set.name;
+    }
+  }
 }
 
 TEST(Sets, OfFacesAndTetsSurviveGmsh) {

@@ -23,6 +23,7 @@ only_in OpenVDB 'openvdb/|volume/volume_impl\.h' '^src/volume/|^src/oracle/(isos
 only_in CGAL 'CGAL/|gmp' '^src/delaunay/|^src/oracle/polygon[a-z_]*\.(h|cpp)$'
 only_in GiNaC 'ginac/|cln/' '^src/oracle/formula_algebra\.cpp$'
 only_in libtiff 'tiff' '^src/volume/[a-z_]*tiff[a-z_]*\.(h|cpp)$'
+only_in HDF5 'hdf5\.h' '^src/mesh_io/hdf5_image\.cpp$'
 only_in JSON 'nlohmann/' '^tools/|^src/volume/raw_json\.cpp$'
 only_in CLI11 'CLI/' '^tools/'
 

@@ -37,10 +37,26 @@ TEST(SetRules, AreReadFromText) {
 }
 
 TEST(SetRules, ThatMakeNoSenseAreRefusedWithTheirText) {
-  for (const char* text : {"a", "=all", "1a=all", "a b=all", "a=al", "a=all:", "a=plane:1,2,3", "a=plane:1,2,3,0,0,0",
-                           "a=plane:1,2,3,0,0,1,-1", "a=box:1,2,3", "a=box:2:1,0:1,0:1", "a=sphere:0,0,0,0",
-                           "a=sphere:0,0,0,nan", "a=normal:0,0,1", "a=near:0,0,0,x", "surface=all", "REGION_2=all",
-                           "a=border:up", "a=border:xmin", "a=border:",
+  for (const char* text : {"a",
+                           "=all",
+                           "1a=all",
+                           "a b=all",
+                           "a=al",
+                           "a=all:",
+                           "a=plane:1,2,3",
+                           "a=plane:1,2,3,0,0,0",
+                           "a=plane:1,2,3,0,0,1,-1",
+                           "a=box:1,2,3",
+                           "a=box:2:1,0:1,0:1",
+                           "a=sphere:0,0,0,0",
+                           "a=sphere:0,0,0,nan",
+                           "a=normal:0,0,1",
+                           "a=near:0,0,0,x",
+                           "surface=all",
+                           "REGION_2=all",
+                           "a=border:up",
+                           "a=border:xmin",
+                           "a=border:",
                            "a23456789012345678901234567890123456789012=all"}) {
     EXPECT_NE(complaint({text}).find(text), std::string::npos) << text << ": " << complaint({text});
   }
@@ -72,7 +88,8 @@ TEST(SetRules, BordersFollowTheImageWhereverItLies) {
 
 TEST(SetRules, InAnotherFrameTheSidesChangeTheirNames) {
   const VolumeHeader header = make_phantom("sphere", phantom_defaults("sphere")).header();
-  const MeshedImage as_it_is{header, FrameChange(header.frame, "ras")}, turned{header, FrameChange(header.frame, "lps")};
+  const MeshedImage as_it_is{header, FrameChange(header.frame, "ras")},
+      turned{header, FrameChange(header.frame, "lps")};
   const auto plain = std::get<BorderRule>(parse_sets({"a=border:xmin"}, &as_it_is)[0].rule);
   const auto other = std::get<BorderRule>(parse_sets({"a=border:xmax"}, &turned)[0].rule);
   EXPECT_EQ(plain.point.x, -other.point.x);
@@ -83,11 +100,12 @@ TEST(SetRules, AnOrganCutByTheImageEdgeIsHeldThere) {
   TemporaryFolder folder;
   const std::string volume = folder / "a.nii", mesh = folder / "a.inp";
   ASSERT_EQ(run_delvox({"phantom", "sphere", "--dims", "40,40,40", "-o", volume}).code, 0);
-  const auto tet = run_delvox({"tet", volume, "--size", "3", "--crop", "0:39,0:39,20:39", "--set", "cut=border:zmin", "--set", "none=border:zmax",
-                               "-o", mesh, "--json"});
+  const auto tet = run_delvox({"tet", volume, "--size", "3", "--crop", "0:39,0:39,20:39", "--set", "cut=border:zmin",
+                               "--set", "none=border:zmax", "-o", mesh, "--json"});
   EXPECT_EQ(tet.code, 5) << "an empty set breaks a promise";
   EXPECT_NE(tet.err.find("none"), std::string::npos) << tet.err;
-  const auto converted = run_delvox({"convert", mesh, "--set", "x=all", "--order", "2", "--unit", "m", "-o", folder / "b.inp"});
+  const auto converted =
+      run_delvox({"convert", mesh, "--set", "x=all", "--order", "2", "--unit", "m", "-o", folder / "b.inp"});
   EXPECT_EQ(converted.code, 0) << converted.err;
   const std::string text = test::read_file(folder / "b.inp");
   for (const char* word : {"in m ", "C3D10", "NSET=CUT", "NAME=CUT", "ELSET=x"}) {

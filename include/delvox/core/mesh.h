@@ -29,8 +29,8 @@ using MidNodes = std::array<std::uint32_t, 6>;
 
 /// One face of a tet of a mesh.
 struct TetFace {
-  std::uint32_t tet = 0;   ///< index
-  std::uint8_t face = 0;   ///< of kTetFaces: it lies opposite that corner
+  std::uint32_t tet = 0;  ///< index
+  std::uint8_t face = 0;  ///< of kTetFaces: it lies opposite that corner
   friend auto operator<=>(const TetFace&, const TetFace&) = default;
 };
 
@@ -96,9 +96,9 @@ struct TetMesh {
   std::vector<Triangle> boundary;         ///< faces between a region and the outside, oriented outward
   std::vector<std::uint8_t> on_surface;   ///< one per point, 1: lies on the isosurface; empty if not known
   MeshInfo info;
-  std::vector<MidNodes> mid_nodes;        ///< one per tet of second order; empty: first order
+  std::vector<MidNodes> mid_nodes;  ///< one per tet of second order; empty: first order
   std::vector<MeshSet> sets;
-  std::vector<Material> materials;        ///< of regions, at most one each
+  std::vector<Material> materials;  ///< of regions, at most one each
 };
 
 /// What readers return, and writers and the checker take.

@@ -12,7 +12,7 @@ namespace delvox {
 /// All that lies beyond a plane, on the side its normal points to; with a thickness only what is that near to it.
 struct PlaneRule {
   Point3 point;
-  Vector3 normal;  ///< of any length but 0
+  Vector3 normal;                                              ///< of any length but 0
   double thickness = std::numeric_limits<double>::infinity();  ///< mm, to both sides
 };
 /// All that lies in a box.
