@@ -1,0 +1,216 @@
+#include <algorithm>
+#include <utility>
+
+#include "core/parallel.h"
+#include "meshing/refinement.h"
+
+namespace delvox {
+namespace {
+
+constexpr std::size_t kMostLanes = 16, kFewestLanes = 8, kWaitingPerLane = 32, kLanesPerChunk = 2;
+/// Facets that a lane may judge before the others are waited for.
+constexpr std::size_t kMostJudged = 16;
+
+/// The part of `all` that lane `lane` of so many gets.
+template <class T>
+void take_share(const std::vector<T>& all, std::size_t first, std::size_t lane, std::size_t lanes, std::vector<T>& share) {
+  const std::size_t count = all.size() - first;
+  const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(first + count * i / lanes); };
+  share.insert(share.end(), at(lane), at(lane + 1));
+}
+
+void append(RefinementQueues& to, const RefinementQueues& from) {
+  take_share(from.facets, from.next_facet, 0, 1, to.facets);
+  take_share(from.tets, 0, 0, 1, to.tets);
+}
+
+}  // namespace
+
+/// How many lanes to work in: a matter of the mesh alone, never of the number of threads.
+std::size_t Refinement::lanes_for(std::size_t waiting) {
+  const std::size_t lanes = waiting / kWaitingPerLane;
+  return lanes < kFewestLanes ? 1 : std::min(lanes, kMostLanes);
+}
+
+/// Until nothing waits, or the budget is used up: in lanes as long as there is enough for several, then what must or
+/// may as well be done alone.
+void Refinement::refine() {
+  while (queues_.waiting() > 0 && !budget_.exhausted()) {
+    RefinementQueues aside;
+    while (lanes_for(queues_.waiting()) > 1 && !budget_.exhausted()) run_lanes(aside);
+    const std::size_t at_least = aside.waiting();
+    append(aside, queues_);
+    std::rotate(aside.tets.begin(), aside.tets.end() - static_cast<std::ptrdiff_t>(queues_.tets.size()), aside.tets.end());
+    queues_ = std::move(aside);
+    run_alone(at_least);
+  }
+}
+
+/// Gives each lane its share of what waits, and lets them work until half of them have nothing left.
+void Refinement::run_lanes(RefinementQueues& aside) {
+  const std::size_t lanes = lanes_for(queues_.waiting());
+  if (lanes_.size() < lanes) lanes_.resize(lanes);
+  for (std::size_t i = 0; i < lanes; ++i) {
+    take_share(queues_.facets, queues_.next_facet, i, lanes, lanes_[i].queues.facets);
+    take_share(queues_.tets, 0, i, lanes, lanes_[i].queues.tets);
+  }
+  queues_ = {};
+  const auto for_each_lane = [&](const auto& visit) {
+    for_each_chunk(lanes, kLanesPerChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(lanes_[i]);
+    });
+  };
+  std::size_t busy = lanes;
+  while (2 * busy > lanes && !budget_.exhausted()) {
+    const std::uint32_t first_claim = delaunay_.new_claims(static_cast<std::uint32_t>(lanes));
+    for (std::size_t i = 0; i < lanes; ++i) lanes_[i].lane.claim = first_claim + static_cast<std::uint32_t>(i);
+    for_each_lane([&](RefinementLane& lane) { look(lane, lane.queues, false); });
+    keep_to_budget(lanes);
+    for (std::size_t i = 0; i < lanes; ++i) furnish(lanes_[i]);
+    for_each_lane([&](RefinementLane& lane) { conclude(lane, lane.queues); });
+    busy = static_cast<std::size_t>(std::count_if(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(lanes),
+                                                  [](const auto& lane) { return lane.queues.waiting() > 0; }));
+  }
+  for (std::size_t i = 0; i < lanes; ++i) {
+    append(queues_, std::exchange(lanes_[i].queues, {}));
+    append(aside, std::exchange(lanes_[i].aside, {}));
+    collect(lanes_[i]);
+  }
+}
+
+/// Takes back insertions that the budget has no room for.
+void Refinement::keep_to_budget(std::size_t lanes) {
+  std::size_t room = 0;
+  bool asked = false;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    if (!lanes_[i].insertion) continue;
+    if (!std::exchange(asked, true) && budget_left()) room = budget_.room(vertex_count());
+    if (room == 0) lanes_[i].insertion.reset();
+    if (lanes_[i].insertion && delaunay_.holds(lanes_[i].lane)) --room;
+  }
+}
+
+/// One thing after the other, at least so many, and on until there is enough for several lanes.
+void Refinement::run_alone(std::size_t at_least) {
+  if (lanes_.empty()) lanes_.resize(1);
+  RefinementLane& lane = lanes_.front();
+  for (std::size_t done = 0; queues_.waiting() > 0; ++done) {
+    if (done >= at_least && lanes_for(queues_.waiting()) > 1) break;
+    lane.lane.claim = delaunay_.new_claims(1);
+    look(lane, queues_, true);
+    if (lane.insertion && !budget_left()) break;
+    furnish(lane);
+    conclude(lane, queues_);
+  }
+  collect(lane);
+}
+
+void Refinement::furnish(RefinementLane& lane) {
+  if (lane.insertion || !lane.judged.empty()) {
+    delaunay_.furnish(lane.lane, lane.insertion.has_value(), lane.judged.size());
+  }
+}
+
+void Refinement::collect(RefinementLane& lane) {
+  for (VertexId vertex : lane.dirty) mark_dirty(vertex);
+  for (const RefinementLane::Change& change : lane.changes) note_change(change.box, change.near);
+  report_.surface_insertions += std::exchange(lane.surface_insertions, 0);
+  report_.interior_insertions += std::exchange(lane.interior_insertions, 0);
+  if (lane.too_deviant > 0) deviant_place_ = lane.deviant_place;
+  too_deviant_ += std::exchange(lane.too_deviant, 0);
+  if (lane.stuck > 0) stuck_place_ = lane.stuck_place;
+  stuck_ += std::exchange(lane.stuck, 0);
+  lane.dirty.clear();
+  lane.changes.clear();
+  delaunay_.clear_out(lane.lane);
+}
+
+/// Finds out what is to be done next, and claims what that touches: steps 2 and 3 first, step 7 only if no facet waits.
+/// Changes nothing that other lanes could see, unless it is `alone`.
+void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone) {
+  lane.judged.clear();
+  lane.insertion.reset();
+  Worker& worker = delaunay_.worker();
+  while (queues.facets_waiting() > 0 && !lane.insertion && lane.judged.size() < kMostJudged) {
+    look_at_facet(lane, queues, worker, alone);
+  }
+  while (lane.judged.empty() && queues.facets_waiting() == 0 && !queues.tets.empty() && !lane.insertion) {
+    look_at_tet(lane, queues, worker, alone);
+  }
+  for (const auto& judged : lane.judged) delaunay_.claim(judged.waiting.facet, lane.lane.claim);
+  if (!lane.insertion) return;
+  delaunay_.claim(lane.lane);
+  if (!watch_.empty() && lane.insertion == VertexKind::kSurface) lane.changing = box_of_change(lane.lane.star);
+}
+
+/// The first facet waiting: leaves the queue, unless something is to be inserted for it.
+void Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
+  const auto waiting = queues.facets[queues.next_facet];
+  const FacetId facet = waiting.facet;
+  const bool stale = !delaunay_.alive(facet.cell, waiting.stamp) || !delaunay_.bipolar(facet) ||
+                     (delaunay_.ball(facet) != nullptr && !has_interior_vertex(facet));
+  if (stale) return queues.pop_facet();
+  if (has_interior_vertex(facet)) {
+    queues.pop_facet();
+    return alone ? remove_interior_vertex_of(facet) : lane.aside.facets.push_back(waiting);
+  }
+  const SurfaceBall ball = delaunay_.find_ball(facet, *worker.oracle);
+  const Fault fault = fault_of(facet, ball);
+  const double smallest = surface_.min_ball_radius;
+  const bool too_deviant = fault == Fault::kDeviation && ball.squared_radius <= smallest * smallest;
+  if (fault == Fault::kNone || too_deviant) {
+    lane.judged.push_back({waiting, ball, too_deviant});
+    return queues.pop_facet();
+  }
+  Star& star = lane.lane.star;
+  delaunay_.evaluate(ball.center, facet.cell, worker, star);
+  if (delaunay_.disturbs_aside(star.zone)) {
+    if (alone) return insert_deep();
+    lane.aside.facets.push_back(waiting);
+    return queues.pop_facet();
+  }
+  if (star.duplicate) {
+    ++lane.stuck;
+    lane.stuck_place = ball.center;
+    lane.judged.push_back({waiting, ball, false});
+    return queues.pop_facet();
+  }
+  lane.insertion = VertexKind::kSurface;
+  lane.for_facet = true;
+}
+
+/// Steps 2 and 3 once more, of what conclude() may do beside other lanes.
+void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
+  const auto dirty = [&](FacetId facet) {
+    const auto vertices = delaunay_.vertices(facet);
+    lane.dirty.insert(lane.dirty.end(), vertices.begin(), vertices.end());
+  };
+  for (const auto& [waiting, ball, too_deviant] : lane.judged) {
+    if (!delaunay_.holds(waiting.facet, lane.lane.claim)) {
+      queues.facets.push_back(waiting);
+      continue;
+    }
+    if (delaunay_.ball(waiting.facet) != nullptr) continue;  // judged from both of its sides
+    delaunay_.keep_ball(waiting.facet, ball, lane.lane);
+    dirty(waiting.facet);
+    lane.too_deviant += too_deviant;
+    if (too_deviant) lane.deviant_place = ball.center;
+  }
+  if (!lane.insertion || !delaunay_.holds(lane.lane)) return;
+  for (CellId cell : lane.lane.star.zone) {
+    for (int i = 0; i < 4 && delaunay_.has_balls(cell); ++i) {
+      if (delaunay_.ball({cell, i}) != nullptr) dirty({cell, i});
+    }
+  }
+  if (lane.for_facet) {
+    dirty(queues.facets[queues.next_facet].facet);
+    queues.pop_facet();
+  }
+  const VertexId inserted = delaunay_.commit(lane.lane, *lane.insertion);
+  const bool on_surface = lane.insertion == VertexKind::kSurface;
+  if (on_surface && !watch_.empty()) lane.changes.push_back({lane.changing, inserted});
+  ++(on_surface ? lane.surface_insertions : lane.interior_insertions);
+  enqueue(lane.lane.created, queues);
+}
+
+}  // namespace delvox
