@@ -72,6 +72,11 @@ class RestrictedDelaunay {
   const std::vector<CellId>& incident_cells(VertexId vertex) const;
   /// Some cell at the vertex.
   CellId cell_of(VertexId vertex) const { return delaunay_.cell_of(vertex); }
+  /// A cell in use, if possible near the last change.
+  CellId some_cell() const {
+    const auto living = std::find_if(created_.begin(), created_.end(), [this](CellId cell) { return stamp(cell) != 0; });
+    return living != created_.end() ? *living : cell_of(0);
+  }
   /// The cell that contains p, by a walk from `hint`.
   CellId locate(const Point3& p, CellId hint) const { return delaunay_.locate(p, hint); }
 

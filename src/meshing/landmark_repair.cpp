@@ -27,7 +27,7 @@ std::vector<LandmarkWatch::Due> Refinement::find_misplaced(const std::vector<Lan
   constexpr std::size_t kChunk = 1024;
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<LandmarkWatch::Due>& misplaced) {
     const Oracle& oracle = *delaunay_.worker().oracle;
-    CellId hint = delaunay_.created().front();
+    CellId hint = delaunay_.some_cell();
     for (std::size_t i = begin; i < end; ++i) {
       LandmarkPlace& place = landmark_places_[due[i].landmark];
       hint = cell_of_landmark(due[i], hint);
@@ -48,11 +48,11 @@ CellId Refinement::cell_of_landmark(const LandmarkWatch::Due& due, CellId hint) 
   const bool vertex_known = due.near != kNone && delaunay_.kind(due.near) != VertexKind::kRemoved;
   if (vertex_known) hint = delaunay_.cell_of(due.near);
   const bool known = hint != RestrictedDelaunay::kBeyond && delaunay_.stamp(hint) != 0;
-  return delaunay_.locate(watch_.point(due.landmark), known ? hint : delaunay_.created().front());
+  return delaunay_.locate(watch_.point(due.landmark), known ? hint : delaunay_.some_cell());
 }
 
 bool Refinement::repair_landmark(const LandmarkWatch::Due& due) {
-  const CellId cell = cell_of_landmark(due, delaunay_.created().front());
+  const CellId cell = cell_of_landmark(due, delaunay_.some_cell());
   const auto p = crossing_beside(watch_.point(due.landmark), cell, oracle_);
   const bool inserted = p && insert_for_landmark(*p, cell);
   LandmarkPlace& place = landmark_places_[due.landmark];
@@ -93,7 +93,7 @@ bool Refinement::repair_links() {
   constexpr std::size_t kChunk = 1024;
   const std::vector<std::uint32_t> links = watch_.take_links();
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<MisplacedCell>& misplaced) {
-    CellId hint = delaunay_.created().front();
+    CellId hint = delaunay_.some_cell();
     for (std::size_t i = begin; i < end; ++i) {
       const auto [a, b] = watch_.link(links[i]);
       const CellId cell_a = cell_of_landmark({a}, hint), cell_b = cell_of_landmark({b}, cell_a);
@@ -155,7 +155,7 @@ bool Refinement::repair_pieces() {
   const Pieces pieces = find_pieces(delaunay_);
   std::vector<bool> real(pieces.count, false);
   std::uint32_t unknown = pieces.count;
-  CellId hint = delaunay_.created().front();
+  CellId hint = delaunay_.some_cell();
   for (std::uint32_t i = 0; i < watch_.size() && unknown > 0; ++i) {
     const std::uint32_t piece = pieces.of_cell[hint = cell_of_landmark({i}, hint)];
     unknown -= !real[piece];
@@ -165,7 +165,7 @@ bool Refinement::repair_pieces() {
   bool inserted = false;
   for (const SurfaceBall& ball : largest_balls(pieces, real)) {
     if (ball.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) continue;
-    inserted |= insert_for_landmark(ball.center, delaunay_.created().front());
+    inserted |= insert_for_landmark(ball.center, delaunay_.some_cell());
   }
   return inserted;
 }
