@@ -22,6 +22,9 @@ struct SpatialOrder {
 /// 2003). Depends on the points alone.
 SpatialOrder spatial_order(const std::vector<Point3>& points);
 
+/// Where a point of the box comes along a Hilbert curve through it.
+std::uint64_t place_along_curve(const Point3& p, const Box3& box);
+
 /// A 64-bit hash of a point's coordinates.
 std::uint64_t hash_point(const Point3& p);
 

@@ -62,12 +62,14 @@ class Refinement {
     CellId cell;
     std::uint32_t stamp;
   };
-  enum class Fault { kNone, kSize, kAngle, kDeviation };
+  enum class Verdict { kGood, kSplit, kTooDeviant };
 
   // Lanes (refinement_lanes.cpp)
   static std::size_t lanes_for(std::size_t waiting);
   void refine();
   void run_lanes(RefinementQueues& aside);
+  template <class Waiting, class CellOf>
+  void sort_by_place(std::vector<Waiting>& entries, std::size_t first, const CellOf& cell_of) const;
   void keep_to_budget(std::size_t lanes);
   void run_alone(std::size_t at_least);
   void furnish(RefinementLane& lane);
@@ -75,13 +77,16 @@ class Refinement {
   void look(RefinementLane& lane, RefinementQueues& queues, bool alone);
   void look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
   void conclude(RefinementLane& lane, RefinementQueues& queues);
+  void judge_new(RefinementLane& lane, RefinementQueues& queues, std::size_t first);
+  void keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant);
+  void mark_dirty(RefinementLane& lane, FacetId facet) const;
 
   // Surface (surface_refinement.cpp)
   void enqueue(const std::vector<CellId>& created, RefinementQueues& queues) const;
   void enqueue_created() { enqueue(delaunay_.created(), queues_); }
   bool has_interior_vertex(FacetId facet) const;
   void remove_interior_vertex_of(FacetId facet);
-  Fault fault_of(FacetId facet, const SurfaceBall& ball) const;
+  Verdict judge(FacetId facet, const SurfaceBall& ball) const;
   bool insert_surface_point(const Point3& p, CellId hint);
   void mark_dirty(FacetId facet);
   void mark_dirty(VertexId vertex);
@@ -144,6 +149,7 @@ class Refinement {
 
   RefinementQueues queues_;
   std::vector<RefinementLane> lanes_;
+  bool tets_wait_ = false;  // for facets of other lanes
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
   LandmarkWatch watch_;

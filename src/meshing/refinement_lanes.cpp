@@ -2,12 +2,13 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "delaunay/spatial_order.h"
 #include "meshing/refinement.h"
 
 namespace delvox {
 namespace {
 
-constexpr std::size_t kMostLanes = 16, kFewestLanes = 8, kWaitingPerLane = 32, kLanesPerChunk = 2;
+constexpr std::size_t kMostLanes = 8, kFewestLanes = 8, kWaitingPerLane = 32, kLanesPerChunk = 1;
 /// Facets that a lane may judge before the others are waited for.
 constexpr std::size_t kMostJudged = 16;
 
@@ -36,6 +37,13 @@ std::size_t Refinement::lanes_for(std::size_t waiting) {
 /// may as well be done alone.
 void Refinement::refine() {
   while (queues_.waiting() > 0 && !budget_.exhausted()) {
+    if (queues_.facets_waiting() > 0 && !queues_.tets.empty()) {
+      // Facets first: a tet must not be split in a surface ball that is not known yet.
+      const auto tets = std::exchange(queues_.tets, {});
+      refine();
+      queues_.tets.insert(queues_.tets.begin(), tets.begin(), tets.end());
+      continue;
+    }
     RefinementQueues aside;
     while (lanes_for(queues_.waiting()) > 1 && !budget_.exhausted()) run_lanes(aside);
     const std::size_t at_least = aside.waiting();
@@ -46,9 +54,36 @@ void Refinement::refine() {
   }
 }
 
+/// Sorts entries along a curve through space, so that each lane gets a place of its own. Entries that are dead by now
+/// may come anywhere.
+template <class Waiting, class CellOf>
+void Refinement::sort_by_place(std::vector<Waiting>& entries, std::size_t first, const CellOf& cell_of) const {
+  constexpr std::size_t kChunk = 4096;
+  struct Keyed {
+    std::uint64_t key;
+    std::uint32_t position;
+  };
+  const Box3 box = oracle_.bounds();
+  std::vector<Keyed> keys(entries.size() - first);
+  for_each_chunk(keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const VertexId corner = delaunay_.vertices(cell_of(entries[first + i]))[0];
+      keys[i] = {place_along_curve(delaunay_.point(corner), box), static_cast<std::uint32_t>(i)};
+    }
+  });
+  parallel_sort(keys, [](const Keyed& a, const Keyed& b) {
+    return a.key != b.key ? a.key < b.key : a.position < b.position;
+  });
+  std::vector<Waiting> sorted(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(first));
+  for (const Keyed& key : keys) sorted.push_back(entries[first + key.position]);
+  entries = std::move(sorted);
+}
+
 /// Gives each lane its share of what waits, and lets them work until half of them have nothing left.
 void Refinement::run_lanes(RefinementQueues& aside) {
   const std::size_t lanes = lanes_for(queues_.waiting());
+  sort_by_place(queues_.facets, queues_.next_facet, [](const auto& waiting) { return waiting.facet.cell; });
+  sort_by_place(queues_.tets, 0, [](const auto& waiting) { return waiting.cell; });
   if (lanes_.size() < lanes) lanes_.resize(lanes);
   for (std::size_t i = 0; i < lanes; ++i) {
     take_share(queues_.facets, queues_.next_facet, i, lanes, lanes_[i].queues.facets);
@@ -64,6 +99,9 @@ void Refinement::run_lanes(RefinementQueues& aside) {
   while (2 * busy > lanes && !budget_.exhausted()) {
     const std::uint32_t first_claim = delaunay_.new_claims(static_cast<std::uint32_t>(lanes));
     for (std::size_t i = 0; i < lanes; ++i) lanes_[i].lane.claim = first_claim + static_cast<std::uint32_t>(i);
+    // As for one lane: no tet's turn comes as long as a facet waits.
+    tets_wait_ = std::any_of(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(lanes),
+                             [](const auto& lane) { return lane.queues.facets_waiting() > 0; });
     for_each_lane([&](RefinementLane& lane) { look(lane, lane.queues, false); });
     keep_to_budget(lanes);
     for (std::size_t i = 0; i < lanes; ++i) furnish(lanes_[i]);
@@ -94,6 +132,7 @@ void Refinement::keep_to_budget(std::size_t lanes) {
 void Refinement::run_alone(std::size_t at_least) {
   if (lanes_.empty()) lanes_.resize(1);
   RefinementLane& lane = lanes_.front();
+  tets_wait_ = false;
   for (std::size_t done = 0; queues_.waiting() > 0; ++done) {
     if (done >= at_least && lanes_for(queues_.waiting()) > 1) break;
     lane.lane.claim = delaunay_.new_claims(1);
@@ -107,7 +146,9 @@ void Refinement::run_alone(std::size_t at_least) {
 
 void Refinement::furnish(RefinementLane& lane) {
   if (lane.insertion || !lane.judged.empty()) {
-    delaunay_.furnish(lane.lane, lane.insertion.has_value(), lane.judged.size());
+    // No star has more facets than twice its tets.
+    const std::size_t new_facets = lane.insertion && tet_criteria_ != nullptr ? 2 * lane.lane.star.tets.size() + 2 : 0;
+    delaunay_.furnish(lane.lane, lane.insertion.has_value(), lane.judged.size() + new_facets);
   }
 }
 
@@ -134,7 +175,7 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
   while (queues.facets_waiting() > 0 && !lane.insertion && lane.judged.size() < kMostJudged) {
     look_at_facet(lane, queues, worker, alone);
   }
-  while (lane.judged.empty() && queues.facets_waiting() == 0 && !queues.tets.empty() && !lane.insertion) {
+  while (!tets_wait_ && lane.judged.empty() && queues.facets_waiting() == 0 && !queues.tets.empty() && !lane.insertion) {
     look_at_tet(lane, queues, worker, alone);
   }
   for (const auto& judged : lane.judged) delaunay_.claim(judged.waiting.facet, lane.lane.claim);
@@ -147,19 +188,16 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
 void Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
   const auto waiting = queues.facets[queues.next_facet];
   const FacetId facet = waiting.facet;
-  const bool stale = !delaunay_.alive(facet.cell, waiting.stamp) || !delaunay_.bipolar(facet) ||
-                     (delaunay_.ball(facet) != nullptr && !has_interior_vertex(facet));
-  if (stale) return queues.pop_facet();
+  if (!delaunay_.alive(facet.cell, waiting.stamp) || !delaunay_.bipolar(facet)) return queues.pop_facet();
   if (has_interior_vertex(facet)) {
     queues.pop_facet();
     return alone ? remove_interior_vertex_of(facet) : lane.aside.facets.push_back(waiting);
   }
-  const SurfaceBall ball = delaunay_.find_ball(facet, *worker.oracle);
-  const Fault fault = fault_of(facet, ball);
-  const double smallest = surface_.min_ball_radius;
-  const bool too_deviant = fault == Fault::kDeviation && ball.squared_radius <= smallest * smallest;
-  if (fault == Fault::kNone || too_deviant) {
-    lane.judged.push_back({waiting, ball, too_deviant});
+  const SurfaceBall* const known = delaunay_.ball(facet);
+  const SurfaceBall ball = known != nullptr ? *known : delaunay_.find_ball(facet, *worker.oracle);
+  const Verdict verdict = judge(facet, ball);
+  if (verdict != Verdict::kSplit) {
+    if (known == nullptr) lane.judged.push_back({waiting, ball, verdict == Verdict::kTooDeviant});
     return queues.pop_facet();
   }
   Star& star = lane.lane.star;
@@ -172,45 +210,70 @@ void Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
   if (star.duplicate) {
     ++lane.stuck;
     lane.stuck_place = ball.center;
-    lane.judged.push_back({waiting, ball, false});
+    if (known == nullptr) lane.judged.push_back({waiting, ball, false});
     return queues.pop_facet();
   }
   lane.insertion = VertexKind::kSurface;
   lane.for_facet = true;
 }
 
-/// Steps 2 and 3 once more, of what conclude() may do beside other lanes.
+void Refinement::keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant) {
+  delaunay_.keep_ball(facet, ball, lane.lane);
+  mark_dirty(lane, facet);
+  lane.too_deviant += too_deviant;
+  if (too_deviant) lane.deviant_place = ball.center;
+}
+
+void Refinement::mark_dirty(RefinementLane& lane, FacetId facet) const {
+  const auto vertices = delaunay_.vertices(facet);
+  lane.dirty.insert(lane.dirty.end(), vertices.begin(), vertices.end());
+}
+
+/// Does what look() has found, as far as the lane holds its claims: what it does not waits on.
 void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
-  const auto dirty = [&](FacetId facet) {
-    const auto vertices = delaunay_.vertices(facet);
-    lane.dirty.insert(lane.dirty.end(), vertices.begin(), vertices.end());
-  };
   for (const auto& [waiting, ball, too_deviant] : lane.judged) {
     if (!delaunay_.holds(waiting.facet, lane.lane.claim)) {
       queues.facets.push_back(waiting);
-      continue;
+    } else if (delaunay_.ball(waiting.facet) == nullptr) {  // else judged from its other side, too
+      keep(lane, waiting.facet, ball, too_deviant);
     }
-    if (delaunay_.ball(waiting.facet) != nullptr) continue;  // judged from both of its sides
-    delaunay_.keep_ball(waiting.facet, ball, lane.lane);
-    dirty(waiting.facet);
-    lane.too_deviant += too_deviant;
-    if (too_deviant) lane.deviant_place = ball.center;
   }
   if (!lane.insertion || !delaunay_.holds(lane.lane)) return;
   for (CellId cell : lane.lane.star.zone) {
     for (int i = 0; i < 4 && delaunay_.has_balls(cell); ++i) {
-      if (delaunay_.ball({cell, i}) != nullptr) dirty({cell, i});
+      if (delaunay_.ball({cell, i}) != nullptr) mark_dirty(lane, {cell, i});
     }
   }
   if (lane.for_facet) {
-    dirty(queues.facets[queues.next_facet].facet);
+    mark_dirty(lane, queues.facets[queues.next_facet].facet);
     queues.pop_facet();
   }
   const VertexId inserted = delaunay_.commit(lane.lane, *lane.insertion);
   const bool on_surface = lane.insertion == VertexKind::kSurface;
   if (on_surface && !watch_.empty()) lane.changes.push_back({lane.changing, inserted});
   ++(on_surface ? lane.surface_insertions : lane.interior_insertions);
+  const std::size_t first_new = queues.facets.size();
   enqueue(lane.lane.created, queues);
+  if (tet_criteria_ != nullptr) judge_new(lane, queues, first_new);
+}
+
+/// Facets from number `first` on have just been made by the lane: their balls become known before any other tet is
+/// looked at, which might lie in one of them. Those that meet the criteria need not wait.
+void Refinement::judge_new(RefinementLane& lane, RefinementQueues& queues, std::size_t first) {
+  const Oracle& oracle = *delaunay_.worker().oracle;
+  const auto is_done = [&](const RefinementQueues::WaitingFacet& waiting) {
+    if (has_interior_vertex(waiting.facet) || delaunay_.ball(waiting.facet) != nullptr) return false;
+    const SurfaceBall ball = delaunay_.find_ball(waiting.facet, oracle);
+    const Verdict verdict = judge(waiting.facet, ball);
+    keep(lane, waiting.facet, ball, verdict == Verdict::kTooDeviant);
+    return verdict != Verdict::kSplit;
+  };
+  auto& facets = queues.facets;
+  facets.erase(std::remove_if(facets.begin() + static_cast<std::ptrdiff_t>(first), facets.end(), is_done), facets.end());
+  if (queues.next_facet > 0 && queues.next_facet >= facets.size()) {
+    facets.clear();
+    queues.next_facet = 0;
+  }
 }
 
 }  // namespace delvox

@@ -44,7 +44,10 @@ void Refinement::enqueue(const std::vector<CellId>& created, RefinementQueues& q
     if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) queues.tets.push_back({cell, stamp});
     for (int i = 0; i < 4; ++i) {
       const FacetId facet{cell, i};
-      if (!delaunay_.bipolar(facet) || delaunay_.ball(facet) != nullptr) continue;
+      if (!delaunay_.bipolar(facet)) continue;
+      // A ball that outlives its cell may be one that is to be split, and waited with that.
+      const SurfaceBall* ball = delaunay_.ball(facet);
+      if (ball != nullptr && (tet_criteria_ == nullptr || judge(facet, *ball) != Verdict::kSplit)) continue;
       const CellId neighbor = delaunay_.neighbors(cell)[i];
       const bool met_from_there = neighbor < cell && delaunay_.stamp(neighbor) >= oldest;
       if (!met_from_there) queues.facets.push_back({facet, stamp});
@@ -74,19 +77,20 @@ void Refinement::remove_interior_vertex_of(FacetId facet) {
   enqueue_created();
 }
 
-Refinement::Fault Refinement::fault_of(FacetId facet, const SurfaceBall& ball) const {
+/// Size, Quality and deviation: is the facet's ball to be split?
+Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) const {
   const double size = surface_.size(ball.center);
-  if (ball.squared_radius > size * size) return Fault::kSize;
+  if (ball.squared_radius > size * size) return Verdict::kSplit;
   const auto v = delaunay_.vertices(facet);
   const TriangleShape shape = triangle_shape(delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]));
   // sin(smallest angle) = shortest edge / (2 circumradius); a hair stricter, so that what is written still holds.
   const double sine = std::sin(surface_.min_angle_degrees * std::numbers::pi / 180);
-  if (shape.shortest_squared_edge < 4 * sine * sine * shape.squared_circumradius * (1 + 1e-9)) return Fault::kAngle;
-  if (std::isfinite(surface_.max_deviation)) {
-    const double squared_deviation = ball.squared_radius - shape.squared_circumradius;
-    if (squared_deviation > surface_.max_deviation * surface_.max_deviation) return Fault::kDeviation;
-  }
-  return Fault::kNone;
+  if (shape.shortest_squared_edge < 4 * sine * sine * shape.squared_circumradius * (1 + 1e-9)) return Verdict::kSplit;
+  if (!std::isfinite(surface_.max_deviation)) return Verdict::kGood;
+  const double squared_deviation = ball.squared_radius - shape.squared_circumradius;
+  if (squared_deviation <= surface_.max_deviation * surface_.max_deviation) return Verdict::kGood;
+  const double smallest = surface_.min_ball_radius;
+  return ball.squared_radius <= smallest * smallest ? Verdict::kTooDeviant : Verdict::kSplit;
 }
 
 bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
