@@ -1,12 +1,22 @@
 #pragma once
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cstddef>
 #include <vector>
 
 namespace delvox {
+
+/// How many threads may work at a time.
+inline int thread_count() {
+  return std::min(tbb::this_task_arena::max_concurrency(),
+                  static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
+}
 
 /// Calls visit(begin, end) in parallel for the chunks of [0, count), each of `chunk` items but the last.
 template <class Visit>
@@ -23,5 +33,32 @@ auto map_chunks(std::size_t count, std::size_t chunk, const Map& map) {
   for_each_chunk(count, chunk, [&](std::size_t begin, std::size_t end) { results[begin / chunk] = map(begin, end); });
   return results;
 }
+
+/// What collect(begin, end, found) appends to `found` for each chunk, in order.
+template <class T, class Collect>
+std::vector<T> gather_chunks(std::size_t count, std::size_t chunk, const Collect& collect) {
+  const auto parts = map_chunks(count, chunk, [&](std::size_t begin, std::size_t end) {
+    std::vector<T> found;
+    collect(begin, end, found);
+    return found;
+  });
+  std::vector<std::size_t> first(parts.size() + 1, 0);
+  for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + parts[i].size();
+  std::vector<T> all(first.back());
+  for_each_chunk(parts.size(), 1, [&](std::size_t i, std::size_t) {
+    std::copy(parts[i].begin(), parts[i].end(), all.begin() + static_cast<std::ptrdiff_t>(first[i]));
+  });
+  return all;
+}
+
+/// pre: no two items are equivalent, or the order would depend on the number of threads.
+template <class T, class Less>
+void parallel_sort(std::vector<T>& items, const Less& less) {
+  tbb::parallel_sort(items.begin(), items.end(), less);
+}
+
+/// One T for each thread that asks for one, made when it first does.
+template <class T>
+using PerThread = tbb::enumerable_thread_specific<T>;
 
 }  // namespace delvox

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "delaunay/hole_filling.h"
 #include "delaunay/predicates.h"
 #include "delvox/core/mesh.h"
 
 namespace delvox {
 
-Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds) {
+Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds), several_threads_(thread_count() > 1) {
   const Point3 c = bounds.center();
   // Far enough that no circumcentre of a cell with a corner can lie in `bounds`; odd factors keep the corners off the
   // planes and spheres of the data.
@@ -25,6 +26,7 @@ Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds) {
   // The determinant is a sum of six products of three differences, none larger than the box: some 50 roundings in all.
   const Vector3 extent = bounds.max - bounds.min;
   orientation_error_ = 1e-14 * extent.x * extent.y * extent.z;
+  vertex_count_ = kCorners;
   make_first_cell();
 }
 
@@ -32,8 +34,10 @@ Delaunay3::~Delaunay3() = default;
 
 void Delaunay3::clear() {
   vertices_.resize(kCorners);
+  vertex_count_ = kCorners;
   free_vertices_.clear();
   free_cells_.clear();
+  room_ = {};
   cells_.clear();
   marks_.clear();
   make_first_cell();
@@ -83,17 +87,20 @@ bool Delaunay3::is_beyond(FacetId facet, const Point3& p) const {
   return orientation(a, b, c, p) > 0;
 }
 
-void Delaunay3::find_incident_cells(VertexId vertex, std::vector<CellId>& around) const {
-  epoch_ += 2;
-  around.assign(1, cell_of(vertex));
-  marks_[around.front()].visited = epoch_;
+void Delaunay3::find_incident_cells(VertexId vertex, std::vector<CellId>& around, SmallMap& met) const {
+  met.clear();
+  around.clear();
+  const auto add = [&](CellId cell) {
+    met.find_or(cell, [&] {
+      around.push_back(cell);
+      return 1;
+    });
+  };
+  add(cell_of(vertex));
   for (std::size_t next = 0; next < around.size(); ++next) {
     const Cell& cell = cells_[around[next]];
     for (int i = 0; i < 4; ++i) {
-      const CellId neighbor = cell.neighbors[i];
-      if (cell.vertices[i] == vertex || marks_[neighbor].visited == epoch_) continue;
-      marks_[neighbor].visited = epoch_;
-      around.push_back(neighbor);
+      if (cell.vertices[i] != vertex) add(cell.neighbors[i]);
     }
   }
 }
@@ -121,30 +128,22 @@ bool Delaunay3::is_vertex_of(CellId cell, const Point3& p) const {
   return std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return point(vertex) == p; });
 }
 
-void Delaunay3::find_zone(const Point3& p, CellId start, Star& star) const {
-  // Two marks per search: even epochs for cells in conflict, odd ones for cells found not to be.
-  epoch_ += 2;
+void Delaunay3::find_zone(const Point3& p, CellId start, Star& star, SmallMap& met) const {
+  met.clear();
   const auto add = [&](CellId cell) {
     star.zone.push_back(cell);
     for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
+    return true;
   };
-  marks_[start].visited = epoch_;
-  add(start);
+  met.find_or(start, [&] { return add(start); });
   for (std::size_t next = 0; next < star.zone.size(); ++next) {
     const CellId cell = star.zone[next];
     for (int i = 0; i < 4; ++i) {
       const CellId neighbor = cells_[cell].neighbors[i];
-      std::uint32_t& visited = marks_[neighbor].visited;
-      if (visited != epoch_ && visited != epoch_ + 1) {
-        const bool conflict = in_conflict(neighbor, p);
-        visited = conflict ? epoch_ : epoch_ + 1;
-        if (conflict) add(neighbor);
-      }
-      if (visited != epoch_) {
-        Star::Tet& tet = star.tets.emplace_back();
-        tet.outer = neighbor == kOutside ? FacetId{kOutside, 0} : mirror({cell, i});
-        tet.vertices = vertices(FacetId{cell, i});
-      }
+      if (met.find_or(neighbor, [&] { return in_conflict(neighbor, p) && add(neighbor); }) != 0) continue;
+      Star::Tet& tet = star.tets.emplace_back();
+      tet.outer = neighbor == kOutside ? FacetId{kOutside, 0} : mirror({cell, i});
+      tet.vertices = vertices(FacetId{cell, i});
     }
   }
 }
@@ -154,18 +153,19 @@ CellId Delaunay3::nearest_hint(const Point3& p, const std::vector<CellId>& hints
   return found != hints.end() ? *found : hints.front();
 }
 
-void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star) const {
+void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star, StarSearch& search) const {
   star.apex = p;
   star.duplicate = false;
   star.zone.clear();
   star.tets.clear();
+  star.corners.clear();
   if (!in_conflict(hint, p)) hint = locate(p, hint);
   if (is_vertex_of(hint, p)) {
     star.duplicate = true;
     return;
   }
-  find_zone(p, hint, star);
-  edges_.match(star.tets);
+  find_zone(p, hint, star, search.met);
+  search.edges.match(star);
   for (Star::Tet& tet : star.tets) {
     tet.sphere = circumsphere(p, point(tet.vertices[0]), point(tet.vertices[1]), point(tet.vertices[2]));
   }
@@ -176,14 +176,13 @@ void Delaunay3::join(FacetId facet, FacetId outer) {
   if (outer.cell != kOutside) cells_[outer.cell].neighbors[outer.index] = facet.cell;
 }
 
-VertexId Delaunay3::new_vertex(const Point3& p) {
+VertexId Delaunay3::new_vertex() {
   if (free_vertices_.empty()) {
-    vertices_.push_back({p, kOutside});
+    vertices_.emplace_back();
     return static_cast<VertexId>(vertices_.size() - 1);
   }
   const VertexId vertex = free_vertices_.back();
   free_vertices_.pop_back();
-  vertices_[vertex] = {p, kOutside};
   return vertex;
 }
 
@@ -192,6 +191,7 @@ CellId Delaunay3::new_cell() {
     const std::size_t cell = cells_.size();
     cells_.grow_to(cell + 1);
     marks_.grow_to(cell + 1);
+    marks_[cell] = {};
     return static_cast<CellId>(cell);
   }
   const CellId cell = free_cells_.back();
@@ -206,23 +206,85 @@ void Delaunay3::set_cell(CellId cell, const std::array<VertexId, 4>& vertices, c
   for (VertexId v : vertices) vertices_[v].cell = cell;
 }
 
+void Delaunay3::claim(CellId cell, std::uint32_t number) const {
+  std::uint32_t& held = marks_[cell].claim;
+  if (!several_threads_) {
+    held = std::max(held, number);
+    return;
+  }
+  std::atomic_ref<std::uint32_t> holder(held);
+  std::uint32_t known = holder.load(std::memory_order_relaxed);
+  while (known < number && !holder.compare_exchange_weak(known, number, std::memory_order_relaxed)) {
+  }
+}
+
+void Delaunay3::claim(const Star& star, std::uint32_t number) const {
+  for (CellId cell : star.zone) claim(cell, number);
+  for (const Star::Tet& tet : star.tets) {
+    if (tet.outer.cell != kOutside) claim(tet.outer.cell, number);
+  }
+}
+
+bool Delaunay3::holds(const Star& star, std::uint32_t number) const {
+  return std::all_of(star.zone.begin(), star.zone.end(), [&](CellId cell) { return holds(cell, number); }) &&
+         std::all_of(star.tets.begin(), star.tets.end(), [&](const Star::Tet& tet) {
+           return tet.outer.cell == kOutside || holds(tet.outer.cell, number);
+         });
+}
+
+void Delaunay3::furnish(Room& room, const Star& star) {
+  constexpr std::size_t kSpare = 256;  // a lane's cells lie together in memory
+  if (room.vertex == kNone) room.vertex = new_vertex();
+  if (room.cells.size() + star.zone.size() >= star.tets.size()) return;
+  const std::size_t wanted = star.tets.size() - star.zone.size() + kSpare;
+  while (room.cells.size() < wanted) room.cells.push_back(new_cell());
+}
+
+void Delaunay3::clear_out(Room& room) {
+  if (room.vertex != kNone) free_vertices_.push_back(room.vertex);
+  free_cells_.insert(free_cells_.end(), room.cells.begin(), room.cells.end());
+  room = {};
+}
+
 VertexId Delaunay3::commit(const Star& star, std::vector<CellId>& created) {
-  const VertexId apex = new_vertex(star.apex);
+  const std::uint32_t number = new_claims(1);
+  for (CellId cell : star.zone) marks_[cell].claim = number;
+  furnish(room_, star);
+  return commit(star, number, room_, created);
+}
+
+/// Gives the vertex another cell if the one it has is going. Vertices of the star may be those of other stars, too, that
+/// are committed at the same time, but only one of these can have claimed the vertex's cell.
+inline void Delaunay3::repoint(VertexId vertex, CellId cell, std::uint32_t number) {
+  std::atomic_ref<CellId> known(vertices_[vertex].cell);
+  if (holds(known.load(std::memory_order_relaxed), number)) known.store(cell, std::memory_order_relaxed);
+}
+
+VertexId Delaunay3::commit(const Star& star, std::uint32_t number, Room& room, std::vector<CellId>& created) {
+  const VertexId apex = std::exchange(room.vertex, kNone);
   // The zone's numbers are used again at once: neighbours stay near in memory.
   created.assign(star.zone.begin(),
                  star.zone.begin() + static_cast<std::ptrdiff_t>(std::min(star.zone.size(), star.tets.size())));
   for (std::size_t i = star.tets.size(); i < star.zone.size(); ++i) {
     marks_[star.zone[i]].stamp = 0;
-    free_cells_.push_back(star.zone[i]);
+    room.cells.push_back(star.zone[i]);
   }
-  while (created.size() < star.tets.size()) created.push_back(new_cell());
+  while (created.size() < star.tets.size()) {
+    created.push_back(room.cells.back());
+    room.cells.pop_back();
+  }
   for (std::size_t t = 0; t < star.tets.size(); ++t) {
     const Star::Tet& tet = star.tets[t];
     const CellId cell = created[t];
-    set_cell(cell, {apex, tet.vertices[0], tet.vertices[1], tet.vertices[2]}, tet.sphere);
+    cells_[cell].vertices = {apex, tet.vertices[0], tet.vertices[1], tet.vertices[2]};
+    cells_[cell].sphere = tet.sphere;
+    marks_[cell].stamp = number;
     for (int i = 0; i < 3; ++i) cells_[cell].neighbors[i + 1] = created[tet.beside[i]];
     join({cell, 0}, tet.outer);
   }
+  for (const Star::Corner& corner : star.corners) repoint(corner.vertex, created[corner.tet], number);
+  vertices_[apex] = {star.apex, created.front()};
+  vertex_count_.fetch_add(1, std::memory_order_relaxed);
   return apex;
 }
 
@@ -251,6 +313,7 @@ void Delaunay3::remove(VertexId vertex, std::vector<CellId>& destroyed, std::vec
     }
   }
   free_vertices_.push_back(vertex);
+  vertex_count_.fetch_sub(1, std::memory_order_relaxed);
 }
 
 }  // namespace delvox

@@ -1,15 +1,17 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/page_array.h"
 #include "delaunay/circumsphere.h"
-#include "delaunay/edge_matcher.h"
 #include "delaunay/ids.h"
 #include "delaunay/star.h"
+#include "delaunay/star_search.h"
 #include "delvox/core/geometry.h"
 
 namespace delvox {
@@ -17,6 +19,10 @@ namespace delvox {
 /// A Delaunay triangulation in flat arrays, with every cell's circumsphere at hand: as a filter it settles all but one
 /// in a hundred in-sphere tests, exact predicates the rest. Numbers of dead cells and vertices are used again; a cell's
 /// stamp tells whether it is still the cell that was meant.
+///
+/// Several insertions can be made at a time: each evaluates its star and claims the cells that this touches, as none
+/// changes anything yet; then those that hold all they have claimed are committed. What comes out does not depend on the
+/// number of threads (deterministic reservations: Blelloch, Fineman, Gibbons, Shun, PPoPP 2012).
 ///
 /// All lies inside one tetrahedron of four corner vertices (numbers below kCorners) far outside the data; the cell with
 /// number kOutside stands for all that is beyond it.
@@ -32,7 +38,7 @@ class Delaunay3 {
   std::size_t cell_capacity() const { return cells_.size(); }
   std::size_t vertex_capacity() const { return vertices_.size(); }
   /// Corners included.
-  std::size_t vertex_count() const { return vertices_.size() - free_vertices_.size(); }
+  std::size_t vertex_count() const { return vertex_count_.load(std::memory_order_relaxed); }
 
   /// 0 for cells that are not in use; changes whenever the number is given to another cell.
   std::uint32_t stamp(CellId cell) const { return marks_[cell].stamp; }
@@ -57,17 +63,40 @@ class Delaunay3 {
   /// The cell that contains p, by a walk from `hint`. pre: p inside the bounds.
   CellId locate(const Point3& p, CellId hint) const;
   /// Cells around a vertex other than a corner, in an order that depends on the triangulation alone.
-  void find_incident_cells(VertexId vertex, std::vector<CellId>& cells) const;
+  void find_incident_cells(VertexId vertex, std::vector<CellId>& cells, SmallMap& met) const;
+  void find_incident_cells(VertexId vertex, std::vector<CellId>& cells) const {
+    find_incident_cells(vertex, cells, search_.met);
+  }
 
   /// Among cells near p, one that its insertion would destroy, or else the first.
   CellId nearest_hint(const Point3& p, const std::vector<CellId>& hints) const;
   /// What would inserting p do? Labels of the star are not set. `hint` is a cell near p.
-  void evaluate(const Point3& p, CellId hint, Star& star) const;
-  /// Whether the cell belongs to the zone of the star evaluated last. pre: no other search since.
-  bool in_zone(CellId cell) const { return marks_[cell].visited == epoch_; }
-  /// Inserts the apex of the star evaluated last; `created` receives the new cells in the order of the star's tets,
-  /// with the apex as their first vertex. pre: !star.duplicate, no other search since.
+  void evaluate(const Point3& p, CellId hint, Star& star) const { evaluate(p, hint, star, search_); }
+  void evaluate(const Point3& p, CellId hint, Star& star, StarSearch& search) const;
+  /// Inserts the apex of a star; `created` receives the new cells in the order of the star's tets, with the apex as
+  /// their first vertex. pre: !star.duplicate, no change since it was evaluated.
   VertexId commit(const Star& star, std::vector<CellId>& created);
+
+  /// Numbers set aside for the insertions of one lane, so that others can be made beside them.
+  struct Room {
+    std::vector<CellId> cells;
+    VertexId vertex = kNone;
+  };
+  /// The first of `count` claims, greater than all before, for insertions that are to be made at a time.
+  std::uint32_t new_claims(std::uint32_t count) { return std::exchange(next_stamp_, next_stamp_ + count); }
+  /// Claims a cell: the greatest claim holds it.
+  void claim(CellId cell, std::uint32_t claim) const;
+  bool holds(CellId cell, std::uint32_t claim) const { return marks_[cell].claim == claim; }
+  /// Claims what committing the star touches: its zone and the cells around it.
+  void claim(const Star& star, std::uint32_t claim) const;
+  bool holds(const Star& star, std::uint32_t claim) const;
+  /// Puts into the room what committing the star takes, and some more. Not to be called beside anything else.
+  void furnish(Room& room, const Star& star);
+  /// Gives back what is left in the room.
+  void clear_out(Room& room);
+  /// As above, beside others. The cells' stamp is the claim. pre: holds(star, claim), room furnished for the star.
+  VertexId commit(const Star& star, std::uint32_t claim, Room& room, std::vector<CellId>& created);
+
   /// Removes a vertex; `destroyed` receives the numbers of the cells that are gone, `created` of those that fill the
   /// hole. pre: no corner.
   void remove(VertexId vertex, std::vector<CellId>& destroyed, std::vector<CellId>& created);
@@ -81,7 +110,7 @@ class Delaunay3 {
   static_assert(sizeof(Cell) == 64);
   struct Mark {
     std::uint32_t stamp;
-    std::uint32_t visited;  // epoch of the last search that met the cell
+    std::uint32_t claim;  // the greatest that has been laid on the cell
   };
   struct Vertex {
     Point3 point;
@@ -95,13 +124,15 @@ class Delaunay3 {
   bool in_conflict_exactly(CellId cell, const Point3& p) const;
   bool is_vertex_of(CellId cell, const Point3& p) const;
   bool is_beyond(FacetId facet, const Point3& p) const;
-  void find_zone(const Point3& p, CellId start, Star& star) const;
-  VertexId new_vertex(const Point3& p);
+  void find_zone(const Point3& p, CellId start, Star& star, SmallMap& met) const;
+  VertexId new_vertex();
   CellId new_cell();
   void set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere);
+  void repoint(VertexId vertex, CellId cell, std::uint32_t claim);
   void join(FacetId facet, FacetId outer);
 
   Box3 bounds_;
+  bool several_threads_;
   PageArray<Cell> cells_;
   mutable PageArray<Mark> marks_;
   std::vector<Vertex> vertices_;
@@ -109,8 +140,9 @@ class Delaunay3 {
   std::vector<VertexId> free_vertices_;
   double trusted_squared_radius_ = 0, orientation_error_ = 0;
   std::uint32_t next_stamp_ = 1;
-  mutable std::uint32_t epoch_ = 0;
-  mutable EdgeMatcher edges_;
+  std::atomic<std::size_t> vertex_count_ = 0;
+  Room room_;
+  mutable StarSearch search_;
   std::unique_ptr<HoleFilling> hole_filling_;  // made by the first removal
 };
 

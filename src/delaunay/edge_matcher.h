@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "delaunay/ids.h"
+#include "delaunay/small_map.h"
 #include "delaunay/star.h"
 
 namespace delvox {
@@ -12,40 +14,33 @@ namespace delvox {
 /// Finds the neighbours of a star's tets across the facets at its apex.
 class EdgeMatcher {
  public:
-  /// Sets Star::Tet::beside. pre: the tets' outer triangles form a closed surface.
-  void match(std::vector<Star::Tet>& tets) {
-    name_vertices(tets);
-    if (degrees_.size() <= kFew) {
-      match_by_table(tets);
+  /// Sets Star::Tet::beside and Star::corners. pre: the tets' outer triangles form a closed surface.
+  void match(Star& star) {
+    name_vertices(star);
+    if (star.corners.size() <= kFew) {
+      match_by_table(star.tets);
     } else {
-      match_by_lists(tets);
+      match_by_lists(star.tets);
     }
   }
 
  private:
   static constexpr std::size_t kFew = 64;
-  struct Known {
-    std::uint32_t round = 0, name = 0;
-  };
   struct Edge {
     std::uint32_t to, tet;
   };
 
-  /// Numbers the star's vertices from 0, and counts the edges that leave each.
-  void name_vertices(const std::vector<Star::Tet>& tets) {
-    if (++round_ == 0) known_.assign(known_.size(), {}), round_ = 1;
-    names_.resize(tets.size());
-    degrees_.clear();
-    for (std::size_t t = 0; t < tets.size(); ++t) {
+  /// Numbers the star's vertices from 0: these are its corners.
+  void name_vertices(Star& star) {
+    known_.clear();
+    names_.resize(star.tets.size());
+    for (std::uint32_t t = 0; t < star.tets.size(); ++t) {
       for (int i = 0; i < 3; ++i) {
-        const VertexId v = tets[t].vertices[i];
-        if (v >= known_.size()) known_.resize(v + v / 2 + 1);
-        if (known_[v].round != round_) {
-          known_[v] = {round_, static_cast<std::uint32_t>(degrees_.size())};
-          degrees_.push_back(0);
-        }
-        names_[t][i] = known_[v].name;
-        ++degrees_[known_[v].name];
+        const VertexId v = star.tets[t].vertices[i];
+        names_[t][i] = known_.find_or(v, [&] {
+          star.corners.push_back({v, t});
+          return static_cast<std::uint32_t>(star.corners.size() - 1);
+        });
       }
     }
   }
@@ -78,8 +73,15 @@ class EdgeMatcher {
 
   /// The edges sorted by where they start: those of vertex v begin at first_[v].
   void list_edges(const std::vector<Star::Tet>& tets) {
+    // As many edges leave a vertex as there are tets at it.
     first_.assign(1, 0);
-    for (std::uint32_t degree : degrees_) first_.push_back(first_.back() + degree);
+    for (const auto& v : names_) {
+      for (std::uint32_t name : v) {
+        if (name + 2 > first_.size()) first_.resize(name + 2, 0);
+        ++first_[name + 1];
+      }
+    }
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
     next_.assign(first_.begin(), first_.end());
     edges_.resize(3 * tets.size());
     for (std::uint32_t t = 0; t < tets.size(); ++t) {
@@ -88,12 +90,11 @@ class EdgeMatcher {
     }
   }
 
-  std::vector<Known> known_;                           // per vertex of the triangulation
+  SmallMap known_;                                     // vertices' names
   std::vector<std::array<std::uint32_t, 3>> names_;    // per tet of the star
-  std::vector<std::uint32_t> degrees_, first_, next_;  // per vertex of the star
+  std::vector<std::uint32_t> first_, next_;            // per vertex of the star
   std::vector<std::uint32_t> table_;                   // tet of each pair of the star's vertices
   std::vector<Edge> edges_;
-  std::uint32_t round_ = 0;
 };
 
 }  // namespace delvox

@@ -6,144 +6,180 @@
 
 namespace delvox {
 
-RestrictedDelaunay::RestrictedDelaunay(const Oracle& oracle) : oracle_(oracle), delaunay_(oracle.bounds()) {
+RestrictedDelaunay::RestrictedDelaunay(const Oracle& oracle)
+    : oracle_(oracle), workers_([&oracle] { return Worker(oracle.clone()); }), delaunay_(oracle.bounds()) {
   kinds_.assign(Delaunay3::kCorners, VertexKind::kCorner);
-  for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) describe(cell);
+  describe_since(0);
 }
 
 const std::vector<CellId>& RestrictedDelaunay::incident_cells(VertexId vertex) const {
-  delaunay_.find_incident_cells(vertex, around_);
-  return around_;
-}
-
-void RestrictedDelaunay::set_kind(VertexId vertex, VertexKind kind) {
-  if (vertex >= kinds_.size()) kinds_.resize(vertex + 1);
-  kinds_[vertex] = kind;
+  Worker& own = worker();
+  delaunay_.find_incident_cells(vertex, own.around, own.search.met);
+  return own.around;
 }
 
 void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on) {
-  created_.assign(1, delaunay_.cell_of(0));
-  for (std::uint32_t i : spatial_order(seeds)) {
+  const auto heedless = [&go_on] {
     go_on();
-    delaunay_.evaluate(seeds[i], delaunay_.nearest_hint(seeds[i], created_), star_);
-    if (star_.duplicate) continue;
-    set_kind(delaunay_.commit(star_, created_), VertexKind::kSurface);
-  }
-  created_.clear();
-  for (CellId cell = Delaunay3::kOutside + 1; cell < delaunay_.cell_capacity(); ++cell) {
-    describe(cell);
-    if (stamp(cell) != 0) created_.push_back(cell);
-  }
+    return true;
+  };
+  insert_all(seeds, VertexKind::kSurface, heedless);
+  created_ = describe_since(0);
 }
 
 std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Point3>& points, const GoOn& go_on) {
-  std::vector<VertexId> vertices(points.size(), kNone);
   const std::uint32_t first_stamp = delaunay_.next_stamp();
-  created_.assign(1, delaunay_.cell_of(0));
-  for (std::uint32_t i : spatial_order(points)) {
-    if (!go_on()) break;
-    delaunay_.evaluate(points[i], delaunay_.nearest_hint(points[i], created_), star_);
-    vertices[i] = commit_unlabelled(VertexKind::kInterior);
-  }
-  created_.clear();
-  for (CellId cell = 0; cell < cell_capacity(); ++cell) {
-    if (stamp(cell) < first_stamp) continue;
-    describe(cell);
-    created_.push_back(cell);
-  }
+  std::vector<VertexId> vertices = insert_all(points, VertexKind::kInterior, go_on);
+  created_ = describe_since(first_stamp);
   for (CellId cell : created_) {
     for (int i = 0; i < 4 && balls_.any(cell); ++i) {
-      if (!bipolar({cell, i})) drop_ball({cell, i});
+      if (!bipolar({cell, i})) drop_ball({cell, i}, mirror({cell, i}), lane_.balls);
     }
   }
   return vertices;
 }
 
-Label RestrictedDelaunay::label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere) const {
+Label RestrictedDelaunay::label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere,
+                                   const Oracle& oracle) const {
   const bool corner = std::any_of(vertices.begin(), vertices.end(), [](VertexId v) { return v < Delaunay3::kCorners; });
-  return corner ? 0 : oracle_.label(sphere.center);
+  return corner ? 0 : oracle.label(sphere.center);
 }
 
-void RestrictedDelaunay::describe(CellId cell) {
-  if (cell >= labels_.size()) labels_.resize(cell + 1);
-  balls_.grow_to(cell + 1);
-  labels_[cell] = cell == Delaunay3::kOutside ? 0 : label_of(vertices(cell), sphere(cell));
+/// To as many cells and vertices as the triangulation has numbers for.
+void RestrictedDelaunay::grow() {
+  if (cell_capacity() > labels_.size()) labels_.resize(cell_capacity());
+  balls_.grow_to(cell_capacity());
+  if (vertex_capacity() > kinds_.size()) kinds_.resize(vertex_capacity(), VertexKind::kRemoved);
 }
 
-Point3 RestrictedDelaunay::dual_crossing(const Point3& center_a, Label label_a, const Point3& center_b,
-                                         Label label_b) const {
-  return label_a < label_b ? oracle_.intersect(center_a, center_b) : oracle_.intersect(center_b, center_a);
+void RestrictedDelaunay::describe(CellId cell, const Oracle& oracle) {
+  labels_[cell] = cell == Delaunay3::kOutside ? 0 : label_of(vertices(cell), sphere(cell), oracle);
+}
+
+/// Describes the cells with that stamp or a greater one; they are returned in order.
+std::vector<CellId> RestrictedDelaunay::describe_since(std::uint32_t first_stamp) {
+  constexpr std::size_t kChunk = 4096;
+  grow();
+  return gather_chunks<CellId>(cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
+    const Oracle& oracle = *worker().oracle;
+    for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
+      if (cell == Delaunay3::kOutside || stamp(cell) == 0 || stamp(cell) < first_stamp) continue;
+      describe(cell, oracle);
+      found.push_back(cell);
+    }
+  });
+}
+
+SurfaceBall RestrictedDelaunay::find_ball(FacetId facet, const Oracle& oracle) const {
+  const CellId other = neighbors(facet.cell)[facet.index];
+  const Point3 center =
+      dual_crossing(sphere(facet.cell).center, label(facet.cell), sphere(other).center, label(other), oracle);
+  return {center, squared_distance(center, point(vertices(facet)[0]))};
 }
 
 const SurfaceBall& RestrictedDelaunay::compute_ball(FacetId facet) {
-  const FacetId other = mirror(facet);
-  SurfaceBall ball;
-  ball.center =
-      dual_crossing(sphere(facet.cell).center, label(facet.cell), sphere(other.cell).center, label(other.cell));
-  ball.squared_radius = squared_distance(ball.center, point(vertices(facet)[0]));
-  const std::uint32_t number = balls_.add(ball);
-  balls_.set(facet, number);
-  balls_.set(other, number);
-  return balls_[number];
+  balls_.furnish(lane_.balls, 2, 1);
+  keep_ball(facet, find_ball(facet, oracle_), lane_);
+  return *ball(facet);
 }
 
-void RestrictedDelaunay::drop_ball(FacetId facet) {
+void RestrictedDelaunay::keep_ball(FacetId facet, const SurfaceBall& ball, Lane& lane) {
+  const std::uint32_t number = balls_.add(ball, lane.balls);
+  balls_.set(facet, number, lane.balls);
+  balls_.set(mirror(facet), number, lane.balls);
+}
+
+void RestrictedDelaunay::drop_ball(FacetId facet, FacetId other, SurfaceBalls::Room& room) {
   const std::uint32_t number = balls_.number_of(facet);
   if (number == kNone) return;
-  balls_.free(number);
-  balls_.set(facet, kNone);
-  balls_.set(mirror(facet), kNone);
+  balls_.free(number, room);
+  balls_.set(facet, kNone, room);
+  balls_.set(other, kNone, room);
 }
 
 const Star& RestrictedDelaunay::evaluate(const Point3& p, CellId hint) {
-  delaunay_.evaluate(p, hint, star_);
-  for (Star::Tet& tet : star_.tets) {
+  evaluate(p, hint, worker(), lane_.star);
+  return lane_.star;
+}
+
+void RestrictedDelaunay::evaluate(const Point3& p, CellId hint, Worker& worker, Star& star) const {
+  delaunay_.evaluate(p, hint, star, worker.search);
+  for (Star::Tet& tet : star.tets) {
     const auto& v = tet.vertices;
-    tet.label = label_of({v[0], v[0], v[1], v[2]}, tet.sphere);
+    tet.label = label_of({v[0], v[0], v[1], v[2]}, tet.sphere, *worker.oracle);
   }
-  return star_;
+}
+
+void RestrictedDelaunay::claim(FacetId facet, std::uint32_t claim) const {
+  delaunay_.claim(facet.cell, claim);
+  delaunay_.claim(neighbors(facet.cell)[facet.index], claim);
+}
+
+bool RestrictedDelaunay::holds(FacetId facet, std::uint32_t claim) const {
+  return delaunay_.holds(facet.cell, claim) && delaunay_.holds(neighbors(facet.cell)[facet.index], claim);
+}
+
+void RestrictedDelaunay::furnish(Lane& lane, bool star, std::size_t balls) {
+  if (star) delaunay_.furnish(lane.room, lane.star);
+  balls_.furnish(lane.balls, 2 * balls + (star ? lane.star.tets.size() : 0), balls);
+  grow();
+}
+
+void RestrictedDelaunay::clear_out(Lane& lane) {
+  delaunay_.clear_out(lane.room);
+  balls_.clear_out(lane.balls);
 }
 
 VertexId RestrictedDelaunay::commit(VertexKind kind) {
+  lane_.claim = new_claims(1);
+  claim(lane_);
+  furnish(lane_, true, 0);
+  const VertexId vertex = commit(lane_, kind);
+  created_ = lane_.created;
+  return vertex;
+}
+
+VertexId RestrictedDelaunay::commit(Lane& lane, VertexKind kind) {
   // A ball on the zone's boundary stays if its centre is still on the shortened dual edge, that is, not in the Voronoi
   // cell of the new vertex, and the edge still bipolar.
-  for (const Star::Tet& tet : star_.tets) {
+  for (const Star::Tet& tet : lane.star.tets) {
     const SurfaceBall* kept = ball(tet.outer);
     if (kept == nullptr) continue;
-    const bool covered = squared_distance(kept->center, star_.apex) < kept->squared_radius;
-    if (covered || label(tet.outer.cell) == tet.label) drop_ball(tet.outer);
+    const bool covered = squared_distance(kept->center, lane.star.apex) < kept->squared_radius;
+    if (covered || label(tet.outer.cell) == tet.label) drop_ball(tet.outer, mirror(tet.outer), lane.balls);
   }
-  const VertexId vertex = commit_unlabelled(kind);
-  labels_.resize(std::max(labels_.size(), cell_capacity()));
-  for (std::size_t i = 0; i < created_.size(); ++i) labels_[created_[i]] = star_.tets[i].label;
+  const VertexId vertex = commit_unlabelled(lane, kind);
+  for (std::size_t i = 0; i < lane.created.size(); ++i) labels_[lane.created[i]] = lane.star.tets[i].label;
   return vertex;
 }
 
 /// Balls inside the zone go, those on its boundary pass to the new cells.
-VertexId RestrictedDelaunay::commit_unlabelled(VertexKind kind) {
-  for (CellId cell : star_.zone) {
+VertexId RestrictedDelaunay::commit_unlabelled(Lane& lane, VertexKind kind) {
+  const Star& star = lane.star;
+  for (CellId cell : star.zone) {
     if (!balls_.any(cell)) continue;
-    for (int i = 0; i < 4; ++i) {
-      if (delaunay_.in_zone(neighbors(cell)[i])) drop_ball({cell, i});
+    for (int i = 0; i < 4 && balls_.any(cell); ++i) {
+      const FacetId facet{cell, i};
+      if (ball(facet) != nullptr && star.in_zone(neighbors(cell)[i])) drop_ball(facet, mirror(facet), lane.balls);
     }
-    balls_.forget(cell);
+    balls_.forget(cell, lane.balls);
   }
-  const VertexId vertex = delaunay_.commit(star_, created_);
-  set_kind(vertex, kind);
-  balls_.grow_to(cell_capacity());
-  for (std::size_t i = 0; i < created_.size(); ++i) {
-    balls_.set({created_[i], 0}, balls_.number_of(star_.tets[i].outer));
+  const VertexId vertex = delaunay_.commit(star, lane.claim, lane.room, lane.created);
+  kinds_[vertex] = kind;
+  for (std::size_t i = 0; i < lane.created.size(); ++i) {
+    balls_.set({lane.created[i], 0}, balls_.number_of(star.tets[i].outer), lane.balls);
   }
   return vertex;
 }
 
 void RestrictedDelaunay::remove(VertexId vertex) {
   for (CellId cell : incident_cells(vertex)) {
-    for (int i = 0; i < 4; ++i) drop_ball({cell, i});
+    for (int i = 0; i < 4; ++i) drop_ball({cell, i}, mirror({cell, i}), lane_.balls);
   }
   delaunay_.remove(vertex, destroyed_, created_);
-  set_kind(vertex, VertexKind::kRemoved);
-  for (CellId cell : created_) describe(cell);
+  kinds_[vertex] = VertexKind::kRemoved;
+  grow();
+  for (CellId cell : created_) describe(cell, oracle_);
 }
 
 }  // namespace delvox

@@ -6,7 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/parallel.h"
 #include "delaunay/delaunay3.h"
+#include "delaunay/lane.h"
 #include "delaunay/surface_balls.h"
 #include "delaunay/walled_region.h"
 #include "delvox/core/geometry.h"
@@ -27,7 +29,7 @@ class RestrictedDelaunay {
 
   explicit RestrictedDelaunay(const Oracle& oracle);
 
-  /// Inserts points of the surface in spatial order; all cells count as created. go_on() is asked before each, so that
+  /// Inserts points of the surface in spatial order; all cells count as created. go_on() is asked now and then, so that
   /// it may throw; what it says is not heeded: with fewer seeds there would be components without any.
   void insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on = always_go_on);
 
@@ -66,10 +68,15 @@ class RestrictedDelaunay {
   FacetId mirror(FacetId facet) const { return delaunay_.mirror(facet); }
   VertexKind kind(VertexId vertex) const { return kinds_[vertex]; }
   const Point3& point(VertexId vertex) const { return delaunay_.point(vertex); }
-  /// Cells around a vertex, in an order that depends on the triangulation alone. Valid until the next call.
+  /// Cells around a vertex, in an order that depends on the triangulation alone. Valid until the same thread asks again.
   const std::vector<CellId>& incident_cells(VertexId vertex) const;
   /// Some cell at the vertex.
   CellId cell_of(VertexId vertex) const { return delaunay_.cell_of(vertex); }
+  /// A cell in use, if possible near the last change.
+  CellId some_cell() const {
+    const auto living = std::find_if(created_.begin(), created_.end(), [this](CellId cell) { return stamp(cell) != 0; });
+    return living != created_.end() ? *living : cell_of(0);
+  }
   /// The cell that contains p, by a walk from `hint`.
   CellId locate(const Point3& p, CellId hint) const { return delaunay_.locate(p, hint); }
 
@@ -82,35 +89,63 @@ class RestrictedDelaunay {
   /// Computes and keeps the surface Delaunay ball. pre: bipolar(facet).
   const SurfaceBall& compute_ball(FacetId facet);
   /// A crossing of the dual edge between two Voronoi vertices of different labels; the same from both sides.
-  Point3 dual_crossing(const Point3& center_a, Label label_a, const Point3& center_b, Label label_b) const;
+  Point3 dual_crossing(const Point3& center_a, Label label_a, const Point3& center_b, Label label_b) const {
+    return dual_crossing(center_a, label_a, center_b, label_b, oracle_);
+  }
+  static Point3 dual_crossing(const Point3& center_a, Label label_a, const Point3& center_b, Label label_b,
+                              const Oracle& oracle) {
+    return label_a < label_b ? oracle.intersect(center_a, center_b) : oracle.intersect(center_b, center_a);
+  }
+  /// The facet's surface Delaunay ball, computed anew and not kept. pre: bipolar(facet).
+  SurfaceBall find_ball(FacetId facet, const Oracle& oracle) const;
 
   /// What would inserting p do? `hint` is a cell near p. The reference is valid until the next call.
   const Star& evaluate(const Point3& p, CellId hint);
-  /// Whether the cell belongs to the zone of the star evaluated last. pre: no other search since.
-  bool in_zone(CellId cell) const { return delaunay_.in_zone(cell); }
   /// Inserts the apex of the star evaluated last; created() holds the new cells. pre: !star.duplicate.
   VertexId commit(VertexKind kind);
   /// Removes an interior vertex; created() holds the cells that fill the hole.
   void remove(VertexId vertex);
-  /// Cells made by the last insert_seeds, commit or remove.
+  /// Cells made by the last insert_seeds, insert_interior, commit or remove.
   const std::vector<CellId>& created() const { return created_; }
 
+  // Insertions in lanes. First, beside each other: evaluate and claim; then, by one thread: furnish; then, beside each
+  // other: what holds its claims may be committed. Nothing else may change the triangulation meanwhile.
+
+  /// The calling thread's own.
+  Worker& worker() const { return workers_.local(); }
+  void evaluate(const Point3& p, CellId hint, Worker& worker, Star& star) const;
+  std::uint32_t new_claims(std::uint32_t count) { return delaunay_.new_claims(count); }
+  void claim(const Lane& lane) const { delaunay_.claim(lane.star, lane.claim); }
+  bool holds(const Lane& lane) const { return delaunay_.holds(lane.star, lane.claim); }
+  void claim(FacetId facet, std::uint32_t claim) const;
+  bool holds(FacetId facet, std::uint32_t claim) const;
+  /// For the lane's star, if `star`, and so many new balls.
+  void furnish(Lane& lane, bool star, std::size_t balls);
+  /// Gives back what the lane has not used.
+  void clear_out(Lane& lane);
+  /// pre: holds(lane), furnished.
+  VertexId commit(Lane& lane, VertexKind kind);
+  /// Keeps a ball. pre: holds(facet, lane.claim), furnished.
+  void keep_ball(FacetId facet, const SurfaceBall& ball, Lane& lane);
+
  private:
-  Label label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere) const;
-  void describe(CellId cell);
-  VertexId commit_unlabelled(VertexKind kind);
-  void set_kind(VertexId vertex, VertexKind kind);
-  void drop_ball(FacetId facet);
+  Label label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere, const Oracle& oracle) const;
+  void grow();
+  void describe(CellId cell, const Oracle& oracle);
+  std::vector<CellId> describe_since(std::uint32_t first_stamp);
+  std::vector<VertexId> insert_all(const std::vector<Point3>& points, VertexKind kind, const GoOn& go_on);
+  VertexId commit_unlabelled(Lane& lane, VertexKind kind);
+  void drop_ball(FacetId facet, FacetId other, SurfaceBalls::Room& room);
 
   const Oracle& oracle_;
+  mutable PerThread<Worker> workers_;
   Delaunay3 delaunay_;
   std::vector<Label> labels_;
   std::vector<VertexKind> kinds_;
   SurfaceBalls balls_;
   WalledRegion aside_;
   std::vector<CellId> created_, destroyed_;
-  mutable std::vector<CellId> around_;
-  Star star_;
+  Lane lane_;  // for insertions one by one
 };
 
 }  // namespace delvox

@@ -5,6 +5,7 @@
 #include <bit>
 
 #include "core/hash.h"
+#include "core/parallel.h"
 
 namespace delvox {
 namespace {
@@ -46,27 +47,36 @@ std::uint64_t round_of(const Point3& p, int last_round) {
 
 }  // namespace
 
-std::vector<std::uint32_t> spatial_order(const std::vector<Point3>& points) {
+std::uint64_t place_along_curve(const Point3& p, const Box3& box) {
+  const double extent = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z, 1e-300});
+  const Vector3 u = (((1u << kBits) - 1) / extent) * (p - box.min);
+  const auto place = [](double coordinate) { return static_cast<std::uint32_t>(std::max(coordinate, 0.0)); };
+  return hilbert_index({place(u.x), place(u.y), place(u.z)});
+}
+
+SpatialOrder spatial_order(const std::vector<Point3>& points) {
   Box3 box;
   for (const Point3& p : points) box.extend(p);
-  const double extent = std::max({box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z, 1e-300});
-  const double scale = ((1u << kBits) - 1) / extent;
   const int last_round = std::bit_width(points.size() / 64);
   struct Entry {
     std::uint64_t key;
     std::uint32_t index;
   };
   std::vector<Entry> entries(points.size());
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
-    const Vector3 u = scale * (points[i] - box.min);
-    const std::uint64_t along = hilbert_index(
-        {static_cast<std::uint32_t>(u.x), static_cast<std::uint32_t>(u.y), static_cast<std::uint32_t>(u.z)});
-    entries[i] = {round_of(points[i], last_round) << 3 * kBits | along, i};
+  for_each_chunk(points.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      entries[i] = {round_of(points[i], last_round) << 3 * kBits | place_along_curve(points[i], box), static_cast<std::uint32_t>(i)};
+    }
+  });
+  parallel_sort(entries, [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  SpatialOrder order;
+  order.indices.resize(points.size());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    order.indices[i] = entries[i].index;
+    if (i + 1 == entries.size() || entries[i].key >> 3 * kBits != entries[i + 1].key >> 3 * kBits) {
+      order.round_ends.push_back(i + 1);
+    }
   }
-  std::sort(entries.begin(), entries.end(),
-            [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
-  std::vector<std::uint32_t> order(points.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = entries[i].index;
   return order;
 }
 

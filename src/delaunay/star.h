@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -19,10 +20,18 @@ struct Star {
     Label label = 0;                      ///< of the circumcentre, once labelled
     Circumsphere sphere;
   };
+  /// A vertex on the zone's boundary, and one of the tets at it.
+  struct Corner {
+    VertexId vertex;
+    std::uint32_t tet;
+  };
   Point3 apex;
-  bool duplicate = false;    ///< the apex is a vertex already; zone and tets are empty
+  bool duplicate = false;    ///< the apex is a vertex already; zone, tets and corners are empty
   std::vector<CellId> zone;  ///< cells whose circumsphere contains the apex
   std::vector<Tet> tets;
+  std::vector<Corner> corners;  ///< each once
+
+  bool in_zone(CellId cell) const { return std::find(zone.begin(), zone.end(), cell) != zone.end(); }
 };
 
 }  // namespace delvox

@@ -16,9 +16,15 @@ struct SurfaceBall {
 };
 
 /// The balls of facets, each known from both of its sides. A cell costs four bytes until one of its facets has a ball.
+/// Different cells can be changed at the same time, each with a room of its own.
 class SurfaceBalls {
  public:
-  /// Room for cells up to `capacity`.
+  /// Places set aside for changes, and those that changes have left.
+  struct Room {
+    std::vector<std::uint32_t> entries, balls;
+  };
+
+  /// Places for the cells up to `capacity`.
   void grow_to(std::size_t capacity) {
     if (capacity > entries_.size()) entries_.resize(capacity, kNone);
   }
@@ -32,45 +38,73 @@ class SurfaceBalls {
     return entry == kNone ? kNone : numbers_[entry][facet.index];
   }
 
-  std::uint32_t add(const SurfaceBall& ball) { return take(free_balls_, balls_, ball); }
-  void free(std::uint32_t number) { free_balls_.push_back(number); }
+  /// Puts into the room what so many cells and balls may take. Not to be called beside anything else.
+  void furnish(Room& room, std::size_t cells, std::size_t balls) {
+    fill(room.entries, cells, free_.entries, numbers_);
+    fill(room.balls, balls, free_.balls, balls_);
+  }
+  /// Gives back what is left in the room.
+  void clear_out(Room& room) {
+    free_.entries.insert(free_.entries.end(), room.entries.begin(), room.entries.end());
+    free_.balls.insert(free_.balls.end(), room.balls.begin(), room.balls.end());
+    room = {};
+  }
+
+  std::uint32_t add(const SurfaceBall& ball, Room& room) {
+    const std::uint32_t number = take(room.balls);
+    balls_[number] = ball;
+    return number;
+  }
+  void free(std::uint32_t number, Room& room) { room.balls.push_back(number); }
   const SurfaceBall& operator[](std::uint32_t number) const { return balls_[number]; }
 
   /// Says which ball a facet has, seen from its cell: kNone for none.
-  void set(FacetId facet, std::uint32_t number) {
+  void set(FacetId facet, std::uint32_t number, Room& room) {
     std::uint32_t& entry = entries_[facet.cell];
     if (entry == kNone) {
       if (number == kNone) return;
-      entry = take(free_entries_, numbers_, {kNone, kNone, kNone, kNone});
+      entry = take(room.entries);
+      numbers_[entry] = kNoBalls;
     }
     auto& numbers = numbers_[entry];
     numbers[facet.index] = number;
-    if (numbers == std::array<std::uint32_t, 4>{kNone, kNone, kNone, kNone}) forget(facet.cell);
+    if (numbers == kNoBalls) forget(facet.cell, room);
   }
   /// The cell has no balls any more; they are not freed.
-  void forget(CellId cell) {
+  void forget(CellId cell, Room& room) {
     std::uint32_t& entry = entries_[cell];
-    if (entry != kNone) free_entries_.push_back(entry);
+    if (entry != kNone) room.entries.push_back(entry);
     entry = kNone;
   }
 
  private:
-  template <class T>
-  static std::uint32_t take(std::vector<std::uint32_t>& unused, std::vector<T>& all, const T& value) {
-    if (unused.empty()) {
-      all.push_back(value);
-      return static_cast<std::uint32_t>(all.size() - 1);
-    }
+  static constexpr std::array<std::uint32_t, 4> kNoBalls{kNone, kNone, kNone, kNone};
+
+  static std::uint32_t take(std::vector<std::uint32_t>& unused) {
     const std::uint32_t number = unused.back();
     unused.pop_back();
-    all[number] = value;
     return number;
+  }
+
+  template <class T>
+  static void fill(std::vector<std::uint32_t>& room, std::size_t count, std::vector<std::uint32_t>& unused,
+                   std::vector<T>& all) {
+    constexpr std::size_t kSpare = 16;
+    if (room.size() >= count) return;
+    while (room.size() < count + kSpare) {
+      if (unused.empty()) {
+        room.push_back(static_cast<std::uint32_t>(all.size()));
+        all.emplace_back();
+      } else {
+        room.push_back(take(unused));
+      }
+    }
   }
 
   std::vector<std::uint32_t> entries_;                 // per cell: its place in numbers_
   std::vector<std::array<std::uint32_t, 4>> numbers_;  // per facet of such a cell: its ball
   std::vector<SurfaceBall> balls_;
-  std::vector<std::uint32_t> free_entries_, free_balls_;
+  Room free_;
 };
 
 }  // namespace delvox

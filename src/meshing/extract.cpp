@@ -1,82 +1,133 @@
 #include "meshing/extract.h"
 
+#include <atomic>
+
+#include "core/parallel.h"
+#include "delaunay/restricted_triangles.h"
+
 namespace delvox {
 namespace {
 
-/// Gives vertices output numbers in the order of their first use.
+constexpr std::size_t kChunk = 1 << 14;
+
+/// Output numbers for the vertices that are used, in the order of the vertices.
 class Numbering {
  public:
-  Numbering(const RestrictedDelaunay& delaunay, std::vector<Point3>& points)
-      : delaunay_(delaunay), points_(points), numbers_(delaunay.vertex_capacity(), kNone) {}
+  explicit Numbering(const RestrictedDelaunay& delaunay)
+      : delaunay_(delaunay), used_(delaunay.vertex_capacity(), 0), numbers_(delaunay.vertex_capacity(), kNone) {}
 
-  std::uint32_t operator()(VertexId vertex) {
-    std::uint32_t& number = numbers_[vertex];
-    if (number == kNone) {
-      number = static_cast<std::uint32_t>(points_.size());
-      points_.push_back(delaunay_.point(vertex));
+  /// Beside other calls: whoever uses a vertex writes the same.
+  void use(VertexId vertex) { std::atomic_ref(used_[vertex]).store(1, std::memory_order_relaxed); }
+  /// Once all are known: their points.
+  std::vector<Point3> count() {
+    std::vector<Point3> points;
+    points.reserve(delaunay_.vertex_count());
+    for (VertexId v = 0; v < used_.size(); ++v) {
+      if (used_[v] == 0) continue;
+      numbers_[v] = static_cast<std::uint32_t>(points.size());
+      points.push_back(delaunay_.point(v));
     }
-    return number;
+    return points;
   }
+  std::uint32_t operator()(VertexId vertex) const { return numbers_[vertex]; }
 
  private:
   const RestrictedDelaunay& delaunay_;
-  std::vector<Point3>& points_;
+  std::vector<std::uint8_t> used_;
   std::vector<std::uint32_t> numbers_;
 };
 
-template <class Visit>
-void for_each_inside_cell(const RestrictedDelaunay& delaunay, const Visit& visit) {
-  for (CellId cell = 0; cell < delaunay.cell_capacity(); ++cell) {
-    if (delaunay.stamp(cell) != 0 && delaunay.label(cell) != 0) visit(cell);
-  }
+/// Restricted triangles that face the outside.
+std::vector<FacetId> outer_triangles(const RestrictedDelaunay& delaunay) {
+  std::vector<FacetId> triangles = restricted_triangles(delaunay);
+  std::erase_if(triangles,
+                [&](FacetId facet) { return delaunay.label(delaunay.neighbors(facet.cell)[facet.index]) != 0; });
+  return triangles;
 }
 
-/// Triangles of `cell` that face the outside.
-void add_boundary(const RestrictedDelaunay& delaunay, CellId cell, Numbering& number, std::vector<Triangle>& out) {
-  for (int i = 0; i < 4; ++i) {
-    if (delaunay.label(delaunay.neighbors(cell)[i]) != 0) continue;
-    const auto v = delaunay.vertices(FacetId{cell, i});
-    out.push_back({number(v[0]), number(v[1]), number(v[2])});
-  }
-}
-
-void add_deep(const DeepLattice& deep, Numbering& number, TetMesh& mesh) {
-  const auto first = static_cast<std::uint32_t>(mesh.points.size());
-  mesh.points.insert(mesh.points.end(), deep.points.begin(), deep.points.end());
-  const auto shell = static_cast<std::uint32_t>(deep.shell.size());
-  for (const auto& corners : deep.tets) {
-    Tet tet;
-    Label label = 0;
-    for (int i = 0; i < 4; ++i) {
-      const bool is_deep = corners[i] >= shell;
-      tet[i] = is_deep ? first + corners[i] - shell : number(deep.shell[corners[i]]);
-      if (is_deep) label = deep.labels[corners[i] - shell];
+std::vector<CellId> inside_cells(const RestrictedDelaunay& delaunay) {
+  return gather_chunks<CellId>(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end, auto& cells) {
+    for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
+      const bool inside = delaunay.stamp(cell) != 0 && delaunay.label(cell) != 0;
+      if (inside && !delaunay.placeholder(cell)) cells.push_back(cell);
     }
-    mesh.tets.push_back(tet);
-    mesh.regions.push_back(label);
-  }
+  });
+}
+
+/// As triangles or tets, by output numbers.
+template <std::size_t N, class Simplex>
+std::vector<std::array<std::uint32_t, N>> numbered(const RestrictedDelaunay& delaunay, const Numbering& number,
+                                                   const std::vector<Simplex>& simplices) {
+  std::vector<std::array<std::uint32_t, N>> result(simplices.size());
+  for_each_chunk(simplices.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto v = delaunay.vertices(simplices[i]);
+      for (std::size_t corner = 0; corner < N; ++corner) result[i][corner] = number(v[corner]);
+    }
+  });
+  return result;
+}
+
+/// The vertices at deep tets. Others of the shell may be gone by now.
+void use_shell(const DeepLattice& deep, Numbering& number) {
+  for_each_chunk(deep.tets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (std::uint32_t corner : deep.tets[t]) {
+        if (deep.vertex(corner) != kNone) number.use(deep.vertex(corner));
+      }
+    }
+  });
+}
+
+void add_deep(const DeepLattice& deep, const Numbering& number, TetMesh& mesh) {
+  const auto first = static_cast<std::uint32_t>(mesh.points.size());
+  const std::size_t first_tet = mesh.tets.size();
+  const auto shell = static_cast<std::uint32_t>(deep.shell.size());
+  mesh.points.insert(mesh.points.end(), deep.points.begin(), deep.points.end());
+  mesh.tets.resize(first_tet + deep.tets.size());
+  mesh.regions.resize(mesh.tets.size());
+  for_each_chunk(deep.tets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::uint32_t corner = deep.tets[t][i];
+        const bool is_deep = corner >= shell;
+        mesh.tets[first_tet + t][i] = is_deep ? first + corner - shell : number(deep.shell[corner]);
+        if (is_deep) mesh.regions[first_tet + t] = deep.labels[corner - shell];
+      }
+    }
+  });
 }
 
 }  // namespace
 
 SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay) {
   SurfaceMesh mesh;
-  Numbering number(delaunay, mesh.points);
-  for_each_inside_cell(delaunay, [&](CellId cell) { add_boundary(delaunay, cell, number, mesh.triangles); });
+  Numbering number(delaunay);
+  const std::vector<FacetId> triangles = outer_triangles(delaunay);
+  for (FacetId facet : triangles) {
+    for (VertexId v : delaunay.vertices(facet)) number.use(v);
+  }
+  mesh.points = number.count();
+  mesh.triangles = numbered<3>(delaunay, number, triangles);
   return mesh;
 }
 
 TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep) {
   TetMesh mesh;
-  Numbering number(delaunay, mesh.points);
-  for_each_inside_cell(delaunay, [&](CellId cell) {
-    if (delaunay.placeholder(cell)) return;
-    const auto& v = delaunay.vertices(cell);
-    mesh.tets.push_back({number(v[0]), number(v[1]), number(v[2]), number(v[3])});
-    mesh.regions.push_back(delaunay.label(cell));
-    add_boundary(delaunay, cell, number, mesh.boundary);
+  Numbering number(delaunay);
+  const std::vector<CellId> cells = inside_cells(delaunay);
+  mesh.regions.resize(cells.size());
+  for_each_chunk(cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      mesh.regions[i] = delaunay.label(cells[i]);
+      for (VertexId v : delaunay.vertices(cells[i])) number.use(v);
+    }
   });
+  if (deep != nullptr) use_shell(*deep, number);
+  mesh.points = number.count();
+  mesh.tets = numbered<4>(delaunay, number, cells);
   if (deep != nullptr) add_deep(*deep, number, mesh);
+  mesh.boundary = numbered<3>(delaunay, number, outer_triangles(delaunay));
   mesh.on_surface.assign(mesh.points.size(), 0);
   for (const Triangle& triangle : mesh.boundary) {
     for (std::uint32_t vertex : triangle) mesh.on_surface[vertex] = 1;

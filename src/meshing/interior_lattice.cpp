@@ -1,9 +1,12 @@
 #include "meshing/interior_lattice.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "core/hash.h"
+#include "core/parallel.h"
+#include "delaunay/restricted_triangles.h"
 #include "meshing/lattice_rows.h"
 
 namespace delvox {
@@ -18,6 +21,7 @@ constexpr double kJitter = 0.01;
 constexpr double kMostSites = 1 << 28;
 /// Cubes all around, so that a site inside has all of its neighbours.
 constexpr int kRim = 2;
+constexpr std::size_t kChunk = 4096;
 
 }  // namespace
 
@@ -47,9 +51,10 @@ bool InteriorLattice::lay_out(const RestrictedDelaunay& delaunay) {
 }
 
 bool InteriorLattice::find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on) {
+  const std::vector<FacetId> triangles = restricted_triangles(delaunay);
   for (const bool centre : {false, true}) {
     const LatticeRows rows{origin_, cube_, centre ? 0.5 : 0.0, counts_[1], counts_[2]};
-    const RowCrossings found = find_row_crossings(delaunay, rows);
+    const RowCrossings found = find_row_crossings(delaunay, triangles, rows);
     for (Site row = 0; row + 1 < found.first.size(); ++row) {
       if (!go_on()) {
         inside_.clear();
@@ -73,20 +78,29 @@ bool InteriorLattice::find_inside(const RestrictedDelaunay& delaunay, const GoOn
 
 /// True if that blocked any site.
 bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
-  bool any = false;
-  for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
-    if (delaunay.kind(v) == VertexKind::kSurface) any |= block_around(delaunay.point(v), kClearance * cube_);
-  }
-  for (CellId cell = 0; cell < delaunay.cell_capacity(); ++cell) {
-    for (int i = 0; i < 4 && delaunay.has_balls(cell); ++i) {
-      const SurfaceBall* ball = delaunay.ball({cell, i});
-      if (ball == nullptr || delaunay.label(cell) == 0) continue;
-      any |= block_around(ball->center, std::sqrt(ball->squared_radius));
+  const auto any = [](const std::vector<std::uint8_t>& parts) {
+    return std::any_of(parts.begin(), parts.end(), [](std::uint8_t part) { return part != 0; });
+  };
+  const bool by_vertices = any(map_chunks(delaunay.vertex_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::uint8_t blocked = 0;
+    for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
+      if (delaunay.kind(v) == VertexKind::kSurface) blocked |= block_around(delaunay.point(v), kClearance * cube_);
     }
-  }
-  return any;
+    return blocked;
+  }));
+  const std::vector<FacetId> triangles = restricted_triangles(delaunay);
+  const bool by_balls = any(map_chunks(triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::uint8_t blocked = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const SurfaceBall* ball = delaunay.ball(triangles[i]);
+      if (ball != nullptr) blocked |= block_around(ball->center, std::sqrt(ball->squared_radius));
+    }
+    return blocked;
+  }));
+  return by_vertices || by_balls;
 }
 
+/// Beside others of its kind: whoever blocks a site writes the same.
 bool InteriorLattice::block_around(const Point3& p, double radius) {
   bool any = false;
   const double reach = radius + 2 * kJitter * cube_;
@@ -106,8 +120,10 @@ bool InteriorLattice::block_around(const Point3& p, double radius) {
         const auto [i0, i1] = range(0, std::sqrt(left));
         const Site row = (centre ? cubes_ : 0) + k * stride_[2] + j * stride_[1];
         for (std::int32_t i = i0; i <= i1; ++i) {
-          any |= state_[row + i] != kBlocked;
-          state_[row + i] = kBlocked;
+          const std::atomic_ref<std::uint8_t> state(state_[row + i]);
+          if (state.load(std::memory_order_relaxed) == kBlocked) continue;
+          state.store(kBlocked, std::memory_order_relaxed);
+          any = true;
         }
       }
     }
@@ -131,22 +147,27 @@ Point3 InteriorLattice::point(Site site) const {
 /// Is one of the 14 sites around it at that depth?
 bool InteriorLattice::touches(int depth, Site site) const {
   for (Site step : stride_) {
-    if (state_[site - step] == depth || state_[site + step] == depth) return true;
+    if (state_of(site - step) == depth || state_of(site + step) == depth) return true;
   }
   // The other kind's sites around a centre are its cube's corners, those around a corner lie the other way.
   const Site low = is_centre(site) ? site - cubes_ : site + cubes_ - stride_[0] - stride_[1] - stride_[2];
   for (int corner = 0; corner < 8; ++corner) {
     const Site other = low + (corner & 1) * stride_[0] + (corner >> 1 & 1) * stride_[1] + (corner >> 2) * stride_[2];
-    if (state_[other] == depth) return true;
+    if (state_of(other) == depth) return true;
   }
   return false;
 }
 
 void InteriorLattice::find_depths() {
   for (int depth = kBlocked; depth + 1 < kDeep; ++depth) {
-    for (Site s : inside_) {
-      if (is_deep(s) && touches(depth, s)) state_[s] = static_cast<std::uint8_t>(depth + 1);
-    }
+    // Sites that get their depth meanwhile are at neither of the depths that are looked at.
+    for_each_chunk(inside_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const Site s = inside_[i];
+        if (state_of(s) != kDeep || !touches(depth, s)) continue;
+        std::atomic_ref(state_[s]).store(static_cast<std::uint8_t>(depth + 1), std::memory_order_relaxed);
+      }
+    });
   }
   std::vector<ShellSite> known;
   known.swap(shell_);
@@ -205,16 +226,13 @@ std::array<InteriorLattice::Tet, 4> InteriorLattice::tets_along(Site site, int a
   return tets;
 }
 
-template <class Visit>
-void InteriorLattice::for_each_deep_tet(const Visit& visit) const {
-  for (Site s : deep_) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const Site start : {s, s - stride_[axis]}) {
-        for (const Tet& tet : tets_along(start, axis)) {
-          // Each is met from all of its deep corners.
-          const bool first = std::none_of(tet.begin(), tet.end(), [&](Site c) { return c < s && is_deep(c); });
-          if (first) visit(tet);
-        }
+/// The tets that have this deep site as their first deep corner.
+void InteriorLattice::add_deep_tets(Site site, std::vector<Tet>& tets) const {
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const Site start : {site, site - stride_[axis]}) {
+      for (const Tet& tet : tets_along(start, axis)) {
+        // Each is met from all of its deep corners.
+        if (std::none_of(tet.begin(), tet.end(), [&](Site c) { return c < site && is_deep(c); })) tets.push_back(tet);
       }
     }
   }
@@ -229,12 +247,18 @@ DeepLattice InteriorLattice::deep() const {
   }
   for (std::size_t i = 0; i < inside_.size(); ++i) {
     if (!is_deep(inside_[i])) continue;
-    number[inside_[i]] = static_cast<std::uint32_t>(shell_.size() + result.points.size());
-    result.points.push_back(point(inside_[i]));
+    number[inside_[i]] = static_cast<std::uint32_t>(shell_.size() + result.labels.size());
     result.labels.push_back(labels_[i]);
   }
-  for_each_deep_tet([&](const Tet& tet) {
-    result.tets.push_back({number[tet[0]], number[tet[1]], number[tet[2]], number[tet[3]]});
+  result.points.resize(deep_.size());
+  for_each_chunk(deep_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) result.points[i] = point(deep_[i]);
+  });
+  result.tets = gather_chunks<Tet>(deep_.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& tets) {
+    for (std::size_t i = begin; i < end; ++i) add_deep_tets(deep_[i], tets);
+    for (Tet& tet : tets) {
+      for (Site& corner : tet) corner = number[corner];
+    }
   });
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -58,10 +59,13 @@ class InteriorLattice {
   bool block_removed(const RestrictedDelaunay& delaunay);
   bool touches(int depth, Site site) const;
   std::array<Tet, 4> tets_along(Site site, int axis) const;
-  template <class Visit>
-  void for_each_deep_tet(const Visit& visit) const;
+  void add_deep_tets(Site site, std::vector<Tet>& tets) const;
 
   bool is_deep(Site site) const { return state_[site] == kDeep; }
+  /// As others may be changing it.
+  std::uint8_t state_of(Site site) const {
+    return std::atomic_ref(state_[site]).load(std::memory_order_relaxed);
+  }
   /// Sites are numbered along x, y, z: first the corners of all cubes, then their centres.
   bool is_centre(Site site) const { return site >= cubes_; }
   double coordinate(int axis, std::int64_t index, bool centre) const {
@@ -73,7 +77,7 @@ class InteriorLattice {
   std::array<std::int32_t, 3> counts_{};
   std::array<Site, 3> stride_{};
   Site cubes_ = 0;
-  std::vector<std::uint8_t> state_;
+  mutable std::vector<std::uint8_t> state_;  // mutable for std::atomic_ref, which takes no const
   std::vector<Site> inside_;      // ascending
   std::vector<Label> labels_;     // of inside_
   std::vector<ShellSite> shell_;  // ascending

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "core/parallel.h"
 #include "meshing/pieces.h"
 #include "meshing/refinement.h"
 
@@ -12,30 +13,47 @@ bool Refinement::repair_landmarks() {
   const std::vector<LandmarkWatch::Due> due = watch_.take_due();
   watch_.await_links_of(due);
   bool inserted = false;
-  for (const LandmarkWatch::Due& landmark : due) {
+  for (const LandmarkWatch::Due& landmark : find_misplaced(due)) {
     if (!budget_left()) return inserted;
     inserted |= repair_landmark(landmark);
   }
-  return inserted || repair_links() || repair_pieces() || repair_voronoi_edges(next_stamp_after_edges_) ||
+  return inserted || repair_links() || repair_pieces() || repair_voronoi_edges(false) ||
          look_closer();
 }
 
-/// The cell that holds a landmark, looked for only if the one known is gone.
-CellId Refinement::cell_of_landmark(const LandmarkWatch::Due& due) {
-  LandmarkPlace& place = landmark_places_[due.landmark];
+/// Finds the cells of landmarks; those that are lost, or whose cell has the other label, are returned. In chunks, of
+/// which each walks from landmark to landmark.
+std::vector<LandmarkWatch::Due> Refinement::find_misplaced(const std::vector<LandmarkWatch::Due>& due) {
+  constexpr std::size_t kChunk = 1024;
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<LandmarkWatch::Due>& misplaced) {
+    const Oracle& oracle = *delaunay_.worker().oracle;
+    CellId hint = delaunay_.some_cell();
+    for (std::size_t i = begin; i < end; ++i) {
+      LandmarkPlace& place = landmark_places_[due[i].landmark];
+      hint = cell_of_landmark(due[i], hint);
+      place.cell = hint;
+      place.stamp = delaunay_.stamp(hint);
+      const bool right = oracle.label(watch_.point(due[i].landmark)) == delaunay_.label(hint);
+      if (place.lost || !right) misplaced.push_back(due[i]);
+    }
+  };
+  return gather_chunks<LandmarkWatch::Due>(due.size(), kChunk, collect);
+}
+
+/// The cell that holds a landmark, looked for only if the one known is gone. `hint`: a cell to walk from if there is no
+/// better one.
+CellId Refinement::cell_of_landmark(const LandmarkWatch::Due& due, CellId hint) const {
+  const LandmarkPlace& place = landmark_places_[due.landmark];
   if (place.cell != kNone && delaunay_.alive(place.cell, place.stamp)) return place.cell;
   const bool vertex_known = due.near != kNone && delaunay_.kind(due.near) != VertexKind::kRemoved;
-  if (vertex_known) last_located_ = delaunay_.cell_of(due.near);
-  const bool last_known = delaunay_.stamp(last_located_) != 0 && last_located_ != RestrictedDelaunay::kBeyond;
-  place.cell = delaunay_.locate(watch_.point(due.landmark), last_known ? last_located_ : delaunay_.created().front());
-  place.stamp = delaunay_.stamp(place.cell);
-  last_located_ = place.cell;
-  return place.cell;
+  if (vertex_known) hint = delaunay_.cell_of(due.near);
+  const bool known = hint != RestrictedDelaunay::kBeyond && delaunay_.stamp(hint) != 0;
+  return delaunay_.locate(watch_.point(due.landmark), known ? hint : delaunay_.some_cell());
 }
 
 bool Refinement::repair_landmark(const LandmarkWatch::Due& due) {
-  const CellId cell = cell_of_landmark(due);
-  const auto p = crossing_beside(watch_.point(due.landmark), cell);
+  const CellId cell = cell_of_landmark(due, delaunay_.some_cell());
+  const auto p = crossing_beside(watch_.point(due.landmark), cell, oracle_);
   const bool inserted = p && insert_for_landmark(*p, cell);
   LandmarkPlace& place = landmark_places_[due.landmark];
   lost_landmarks_ -= place.lost;
@@ -47,10 +65,10 @@ bool Refinement::repair_landmark(const LandmarkWatch::Due& due) {
 
 /// If the cell that holds the landmark has the other label: a point of the surface inside the cell's circumball,
 /// between the landmark and the circumcentre. Inserting it destroys the cell.
-std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId cell) const {
-  const Label label = oracle_.label(landmark);
+std::optional<Point3> Refinement::crossing_beside(const Point3& landmark, CellId cell, const Oracle& oracle) const {
+  const Label label = oracle.label(landmark);
   if (label == delaunay_.label(cell)) return std::nullopt;
-  return delaunay_.dual_crossing(landmark, label, delaunay_.sphere(cell).center, delaunay_.label(cell));
+  return RestrictedDelaunay::dual_crossing(landmark, label, delaunay_.sphere(cell).center, delaunay_.label(cell), oracle);
 }
 
 bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
@@ -72,13 +90,19 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
 /// With every landmark on its side: each link must run through cells of its label, so that necks and tunnels are there
 /// too. What to insert is found before anything is inserted; what an earlier insertion has cured is left out.
 bool Refinement::repair_links() {
-  std::vector<MisplacedCell> misplaced;
-  for (std::uint32_t link : watch_.take_links()) {
-    const auto [a, b] = watch_.link(link);
-    const CellId cell_a = cell_of_landmark({a}), cell_b = cell_of_landmark({b});
-    const auto place = misplaced_on_link(watch_.point(a), cell_a, watch_.point(b), cell_b);
-    if (place) misplaced.push_back(*place);
-  }
+  constexpr std::size_t kChunk = 1024;
+  const std::vector<std::uint32_t> links = watch_.take_links();
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<MisplacedCell>& misplaced) {
+    CellId hint = delaunay_.some_cell();
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto [a, b] = watch_.link(links[i]);
+      const CellId cell_a = cell_of_landmark({a}, hint), cell_b = cell_of_landmark({b}, cell_a);
+      hint = cell_b;
+      const auto place = misplaced_on_link(watch_.point(a), cell_a, watch_.point(b), cell_b);
+      if (place) misplaced.push_back(*place);
+    }
+  };
+  const auto misplaced = gather_chunks<MisplacedCell>(links.size(), kChunk, collect);
   return insert_where_misplaced(misplaced);
 }
 
@@ -113,7 +137,7 @@ std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Poi
       next = delaunay_.neighbors(cell)[i];
     }
     if (delaunay_.label(cell) != label) {
-      const auto p = crossing_beside(a + (0.5 * (entered + left)) * ab, cell);
+      const auto p = crossing_beside(a + (0.5 * (entered + left)) * ab, cell, *delaunay_.worker().oracle);
       if (p) return MisplacedCell{*p, cell, delaunay_.stamp(cell)};
     }
     if (next == kNone || next == RestrictedDelaunay::kBeyond) break;
@@ -131,8 +155,9 @@ bool Refinement::repair_pieces() {
   const Pieces pieces = find_pieces(delaunay_);
   std::vector<bool> real(pieces.count, false);
   std::uint32_t unknown = pieces.count;
+  CellId hint = delaunay_.some_cell();
   for (std::uint32_t i = 0; i < watch_.size() && unknown > 0; ++i) {
-    const std::uint32_t piece = pieces.of_cell[cell_of_landmark({i})];
+    const std::uint32_t piece = pieces.of_cell[hint = cell_of_landmark({i}, hint)];
     unknown -= !real[piece];
     real[piece] = true;
   }
@@ -140,7 +165,7 @@ bool Refinement::repair_pieces() {
   bool inserted = false;
   for (const SurfaceBall& ball : largest_balls(pieces, real)) {
     if (ball.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) continue;
-    inserted |= insert_for_landmark(ball.center, delaunay_.created().front());
+    inserted |= insert_for_landmark(ball.center, delaunay_.some_cell());
   }
   return inserted;
 }
@@ -161,6 +186,7 @@ std::vector<SurfaceBall> Refinement::largest_balls(const Pieces& pieces, const s
 
 void Refinement::note_change(const Box3& box, VertexId near) {
   watch_.note_change(box, near);
+  if (edges_looked_at_) since_edges_.push_back(near);
   pieces_changed_ = true;
 }
 
@@ -173,7 +199,7 @@ Box3 Refinement::box_of_change(const Star& star) const {
   };
   for (CellId cell : star.zone) {
     for (int i = 0; i < 4; ++i) {
-      const bool goes = delaunay_.bipolar({cell, i}) && delaunay_.in_zone(delaunay_.neighbors(cell)[i]);
+      const bool goes = delaunay_.bipolar({cell, i}) && star.in_zone(delaunay_.neighbors(cell)[i]);
       if (goes) extend(delaunay_.vertices(FacetId{cell, i}));
     }
   }

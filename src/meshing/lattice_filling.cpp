@@ -55,10 +55,10 @@ void Refinement::insert_deep() {
 /// come near the deep sites.
 const Star& Refinement::evaluate(const Point3& p, CellId hint) {
   const bool known = delaunay_.stamp(hint) != 0;
-  const Star& star = delaunay_.evaluate(p, known ? hint : delaunay_.created().front());
+  const Star& star = delaunay_.evaluate(p, known ? hint : delaunay_.some_cell());
   if (!delaunay_.disturbs_aside(star.zone)) return star;
   insert_deep();
-  return delaunay_.evaluate(p, delaunay_.created().front());
+  return delaunay_.evaluate(p, delaunay_.some_cell());
 }
 
 }  // namespace delvox

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.h"
+
 namespace delvox {
 namespace {
 
@@ -17,15 +19,11 @@ class RowCaster {
  public:
   RowCaster(const RestrictedDelaunay& delaunay, const LatticeRows& rows) : delaunay_(delaunay), rows_(rows) {}
 
-  RowCrossings run() {
-    for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay_.cell_capacity(); ++cell) {
-      if (delaunay_.stamp(cell) == 0 || delaunay_.label(cell) == 0) continue;
-      for (int i = 0; i < 4; ++i) {
-        // Each triangle from the side of the larger label.
-        if (delaunay_.label(cell) > delaunay_.label(delaunay_.neighbors(cell)[i])) cast_at({cell, i});
-      }
-    }
-    return sorted();
+  RowCrossings run(const std::vector<FacetId>& triangles) const {
+    constexpr std::size_t kChunk = 4096;
+    return sorted(gather_chunks<Hit>(triangles.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& hits) {
+      for (std::size_t i = begin; i < end; ++i) cast_at(triangles[i], hits);
+    }));
   }
 
  private:
@@ -38,7 +36,7 @@ class RowCaster {
     return static_cast<std::int32_t>(std::ceil((lowest - origin) / rows_.step - rows_.shift));
   }
 
-  void cast_at(FacetId facet) {
+  void cast_at(FacetId facet, std::vector<Hit>& hits) const {
     const auto v = delaunay_.vertices(facet);
     Box3 box;
     for (VertexId vertex : v) box.extend(delaunay_.point(vertex));
@@ -48,12 +46,13 @@ class RowCaster {
       for (std::int32_t j = std::max(0, first_at(box.min.y, rows_.origin.y)); j < rows_.ny; ++j) {
         const double y = rows_.origin.y + (j + rows_.shift) * rows_.step;
         if (y > box.max.y) break;
-        hit(facet, v, static_cast<std::uint32_t>(k) * rows_.ny + j, y, z);
+        hit(facet, v, static_cast<std::uint32_t>(k) * rows_.ny + j, y, z, hits);
       }
     }
   }
 
-  void hit(FacetId facet, const std::array<VertexId, 3>& v, std::uint32_t row, double y, double z) {
+  void hit(FacetId facet, const std::array<VertexId, 3>& v, std::uint32_t row, double y, double z,
+           std::vector<Hit>& hits) const {
     std::array<double, 3> weight;  // of each vertex, up to scale
     int left = 0;
     for (int i = 0; i < 3; ++i) {
@@ -69,17 +68,17 @@ class RowCaster {
     for (int i = 0; i < 3; ++i) x += weight[i] / sum * delaunay_.point(v[i]).x;
     // Seen from outside the facet's cell the corners turn left: with left == 3 the cell lies before the crossing.
     const CellId beyond = left == 3 ? delaunay_.neighbors(facet.cell)[facet.index] : facet.cell;
-    hits_.push_back({row, {x, delaunay_.label(beyond)}});
+    hits.push_back({row, {x, delaunay_.label(beyond)}});
   }
 
-  RowCrossings sorted() const {
+  RowCrossings sorted(const std::vector<Hit>& hits) const {
     RowCrossings result;
     result.first.assign(static_cast<std::size_t>(rows_.ny) * rows_.nz + 1, 0);
-    for (const Hit& hit : hits_) ++result.first[hit.row + 1];
+    for (const Hit& hit : hits) ++result.first[hit.row + 1];
     for (std::size_t row = 1; row < result.first.size(); ++row) result.first[row] += result.first[row - 1];
-    result.crossings.resize(hits_.size());
+    result.crossings.resize(hits.size());
     std::vector<std::uint32_t> next(result.first.begin(), result.first.end() - 1);
-    for (const Hit& hit : hits_) result.crossings[next[hit.row]++] = hit.crossing;
+    for (const Hit& hit : hits) result.crossings[next[hit.row]++] = hit.crossing;
     for (std::size_t row = 0; row + 1 < result.first.size(); ++row) {
       std::sort(result.crossings.begin() + result.first[row], result.crossings.begin() + result.first[row + 1],
                 [](const RowCrossing& a, const RowCrossing& b) { return a.x != b.x ? a.x < b.x : a.label < b.label; });
@@ -89,13 +88,13 @@ class RowCaster {
 
   const RestrictedDelaunay& delaunay_;
   const LatticeRows& rows_;
-  std::vector<Hit> hits_;
 };
 
 }  // namespace
 
-RowCrossings find_row_crossings(const RestrictedDelaunay& delaunay, const LatticeRows& rows) {
-  return RowCaster(delaunay, rows).run();
+RowCrossings find_row_crossings(const RestrictedDelaunay& delaunay, const std::vector<FacetId>& triangles,
+                                const LatticeRows& rows) {
+  return RowCaster(delaunay, rows).run(triangles);
 }
 
 }  // namespace delvox

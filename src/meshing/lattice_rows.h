@@ -28,8 +28,9 @@ struct RowCrossings {
   std::vector<RowCrossing> crossings;
 };
 
-/// All crossings. The rows see a closed surface: a row through an edge crosses exactly one of two triangles that it
+/// All crossings with these, the restricted triangles. The rows see a closed surface: a row through an edge crosses exactly one of two triangles that it
 /// passes between, none or both of two that fold back.
-RowCrossings find_row_crossings(const RestrictedDelaunay& delaunay, const LatticeRows& rows);
+RowCrossings find_row_crossings(const RestrictedDelaunay& delaunay, const std::vector<FacetId>& triangles,
+                                const LatticeRows& rows);
 
 }  // namespace delvox

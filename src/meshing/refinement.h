@@ -11,6 +11,7 @@
 #include "meshing/deep_lattice.h"
 #include "meshing/landmark_watch.h"
 #include "meshing/pieces.h"
+#include "meshing/refinement_lane.h"
 #include "meshing/repair_effort.h"
 #include "meshing/run_budget.h"
 
@@ -19,8 +20,8 @@ namespace delvox {
 class InteriorLattice;
 
 /// Del S under refinement with its lazy queues (book, 14.1.3): facets that may be restricted, vertices whose umbrella
-/// may have changed, and, once watched, tetrahedra that break a criterion. Entries are not withdrawn when the mesh
-/// changes; they are tested when their turn comes.
+/// may have changed, and, once watched, tetrahedra that break a criterion. Refinement works in lanes: it treats many
+/// entries at a time, spread over the mesh, by as many threads as there are; what comes out does not depend on these.
 class Refinement {
  public:
   Refinement(const Oracle& oracle, const SurfaceCriteria& surface, const RunControl& control, RunReport& report);
@@ -30,7 +31,7 @@ class Refinement {
 
   /// Steps 2 and 3 of DelTetSurf with Quality and the deviation bound: removes interior vertices from the surface, then
   /// splits restricted triangles that are too large or too skinny, until none is left.
-  void refine_surface();
+  void refine_surface() { refine(); }
   /// Step 5, then landmarks; neither once step 5 has turned out to be hopeless. True if anything was inserted.
   bool repair() { return !effort_.hopeless() && (repair_topology() || repair_landmarks()); }
 
@@ -39,7 +40,7 @@ class Refinement {
   /// From now on tetrahedra that break `criteria` are kept in a stack.
   void watch_tets(const TetCriteria& criteria);
   /// Step 7: splits the tetrahedra on the stack until it is empty, the surface kept refined throughout.
-  void refine_tets();
+  void refine_tets() { refine(); }
 
   /// Tells the report what could not be met.
   void report_unmet();
@@ -50,14 +51,6 @@ class Refinement {
   RunBudget& budget() { return budget_; }
 
  private:
-  struct WaitingFacet {
-    FacetId facet;
-    std::uint32_t stamp;
-  };
-  struct WaitingTet {
-    CellId cell;
-    std::uint32_t stamp;
-  };
   struct LandmarkPlace {
     CellId cell = kNone;
     std::uint32_t stamp = 0;
@@ -69,15 +62,34 @@ class Refinement {
     CellId cell;
     std::uint32_t stamp;
   };
-  enum class Fault { kNone, kSize, kAngle, kDeviation };
+  enum class Verdict { kGood, kSplit, kTooDeviant };
+
+  // Lanes (refinement_lanes.cpp)
+  static std::size_t lanes_for(std::size_t waiting);
+  void refine();
+  void run_lanes(RefinementQueues& aside);
+  template <class Waiting, class CellOf>
+  void sort_by_place(std::vector<Waiting>& entries, std::size_t first, const CellOf& cell_of) const;
+  void keep_to_budget(std::size_t lanes);
+  void run_alone(std::size_t at_least);
+  void furnish(RefinementLane& lane);
+  void collect(RefinementLane& lane);
+  void look(RefinementLane& lane, RefinementQueues& queues, bool alone);
+  void look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
+  void conclude(RefinementLane& lane, RefinementQueues& queues);
+  void judge_new(RefinementLane& lane, RefinementQueues& queues, std::size_t first);
+  void keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant);
+  void mark_dirty(RefinementLane& lane, FacetId facet) const;
 
   // Surface (surface_refinement.cpp)
-  void enqueue_created();
-  bool treat_facet(FacetId facet);
-  bool remove_interior_vertex_of(FacetId facet);
-  Fault fault_of(FacetId facet, const SurfaceBall& ball) const;
+  void enqueue(const std::vector<CellId>& created, RefinementQueues& queues) const;
+  void enqueue_created() { enqueue(delaunay_.created(), queues_); }
+  bool has_interior_vertex(FacetId facet) const;
+  void remove_interior_vertex_of(FacetId facet);
+  Verdict judge(FacetId facet, const SurfaceBall& ball) const;
   bool insert_surface_point(const Point3& p, CellId hint);
   void mark_dirty(FacetId facet);
+  void mark_dirty(VertexId vertex);
   bool repair_umbrella(VertexId vertex);
 
   // Repair (surface_refinement.cpp, landmark_repair.cpp)
@@ -91,9 +103,10 @@ class Refinement {
   bool repair_landmarks();
 
   // Landmarks (landmark_repair.cpp)
-  CellId cell_of_landmark(const LandmarkWatch::Due& due);
+  std::vector<LandmarkWatch::Due> find_misplaced(const std::vector<LandmarkWatch::Due>& due);
+  CellId cell_of_landmark(const LandmarkWatch::Due& due, CellId hint) const;
   bool repair_landmark(const LandmarkWatch::Due& due);
-  std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell) const;
+  std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell, const Oracle& oracle) const;
   bool insert_for_landmark(const Point3& p, CellId hint);
   bool repair_links();
   bool insert_where_misplaced(const std::vector<MisplacedCell>& misplaced);
@@ -104,13 +117,15 @@ class Refinement {
   void note_change(const Box3& box, VertexId near);
   void note_new_facets();
   std::size_t vertex_count() const { return delaunay_.vertex_count() + (deep_ ? deep_->points.size() : 0); }
-  bool budget_left() { return budget_.go_on(vertex_count(), facets_.size() - next_facet_ + tets_.size()); }
+  bool budget_left() { return budget_.go_on(vertex_count(), queues_.waiting()); }
 
   // Voronoi edges (voronoi_edges.cpp)
-  bool repair_voronoi_edges(std::uint32_t first_new);
+  bool repair_voronoi_edges(bool again);
+  std::vector<MisplacedCell> excursions_of_all() const;
+  std::vector<MisplacedCell> excursions_at(std::vector<VertexId> vertices) const;
   bool look_closer();
   SurfaceTopology topology() const;
-  std::optional<Point3> crossing_of_excursion(FacetId facet) const;
+  std::optional<Point3> crossing_of_excursion(FacetId facet, const Oracle& oracle) const;
 
   // Lattice (lattice_filling.cpp)
   const Star& evaluate(const Point3& p, CellId hint);
@@ -120,9 +135,9 @@ class Refinement {
 
   // Tetrahedra (tet_refinement.cpp)
   bool bad(CellId cell) const;
-  void split_tet(CellId cell);
+  void look_at_tet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
   bool find_encroached_ball(const Star& star, SurfaceBall& largest) const;
-  bool find_new_ball(const Star& star, SurfaceBall& largest) const;
+  bool find_new_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const;
 
   const Oracle& oracle_;
   SurfaceCriteria surface_;
@@ -132,17 +147,18 @@ class Refinement {
   RestrictedDelaunay delaunay_;
   std::optional<DeepLattice> deep_;
 
-  std::vector<WaitingFacet> facets_;  // first in, first out from next_facet_
-  std::size_t next_facet_ = 0;
-  std::vector<WaitingTet> tets_;  // last in, first out
+  RefinementQueues queues_;
+  std::vector<RefinementLane> lanes_;
+  bool tets_wait_ = false;  // for facets of other lanes
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
   LandmarkWatch watch_;
   std::vector<LandmarkPlace> landmark_places_;
-  CellId last_located_ = RestrictedDelaunay::kBeyond;
   bool pieces_changed_ = true;
-  std::uint32_t next_stamp_after_edges_ = 0;
+  bool edges_looked_at_ = false;
+  std::vector<VertexId> since_edges_;  // vertices at which facets may be new since then
   double shortest_excursion_ = 0.1;  // of Voronoi edges that the mesh takes notice of, in sizes
+  bool looks_closer_ = false;
   std::optional<SurfaceTopology> expected_topology_;
   std::size_t vertices_at_first_look_ = 0, closer_insertions_ = 0;
   RepairEffort effort_;

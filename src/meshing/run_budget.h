@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "delvox/core/run.h"
@@ -22,6 +24,11 @@ class RunBudget {
   /// May the mesh get so many vertices?
   bool room_for(std::size_t vertices) const {
     return control_.limits.max_vertices == 0 || vertices <= control_.limits.max_vertices;
+  }
+  /// How many more vertices the mesh may get.
+  std::size_t room(std::size_t vertices) const {
+    const std::size_t most = control_.limits.max_vertices;
+    return most == 0 ? std::numeric_limits<std::size_t>::max() : most - std::min(most, vertices);
   }
   bool exhausted() const { return report_.stop != StopReason::kFinished; }
 

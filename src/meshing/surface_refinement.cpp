@@ -36,74 +36,61 @@ void Refinement::insert_seeds() {
   enqueue_created();
 }
 
-void Refinement::enqueue_created() {
-  for (CellId cell : delaunay_.created()) {
+void Refinement::enqueue(const std::vector<CellId>& created, RefinementQueues& queues) const {
+  std::uint32_t oldest = ~std::uint32_t{0};
+  for (CellId cell : created) oldest = std::min(oldest, delaunay_.stamp(cell));
+  for (CellId cell : created) {
     const std::uint32_t stamp = delaunay_.stamp(cell);
-    if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) tets_.push_back({cell, stamp});
+    if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) queues.tets.push_back({cell, stamp});
     for (int i = 0; i < 4; ++i) {
       const FacetId facet{cell, i};
-      if (delaunay_.bipolar(facet) && delaunay_.ball(facet) == nullptr) facets_.push_back({facet, stamp});
+      if (!delaunay_.bipolar(facet)) continue;
+      // A ball that outlives its cell may be one that is to be split, and waited with that.
+      const SurfaceBall* ball = delaunay_.ball(facet);
+      if (ball != nullptr && (tet_criteria_ == nullptr || judge(facet, *ball) != Verdict::kSplit)) continue;
+      const CellId neighbor = delaunay_.neighbors(cell)[i];
+      const bool met_from_there = neighbor < cell && delaunay_.stamp(neighbor) >= oldest;
+      if (!met_from_there) queues.facets.push_back({facet, stamp});
     }
   }
 }
 
-void Refinement::refine_surface() {
-  while (next_facet_ < facets_.size()) {
-    const WaitingFacet waiting = facets_[next_facet_++];
-    if (next_facet_ == facets_.size()) {
-      facets_.clear();
-      next_facet_ = 0;
-    }
-    if (!delaunay_.alive(waiting.facet.cell, waiting.stamp) || !delaunay_.bipolar(waiting.facet)) continue;
-    if (!treat_facet(waiting.facet)) return;
-  }
-}
-
-/// False when the budget is used up.
-bool Refinement::treat_facet(FacetId facet) {
-  if (remove_interior_vertex_of(facet)) return true;
-  if (delaunay_.ball(facet) != nullptr) return true;  // seen from its other side before
-  const SurfaceBall ball = delaunay_.compute_ball(facet);
-  mark_dirty(facet);
-  const Fault fault = fault_of(facet, ball);
-  if (fault == Fault::kNone) return true;
-  if (fault == Fault::kDeviation && ball.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) {
-    ++too_deviant_;
-    deviant_place_ = ball.center;
-    return true;
-  }
-  if (!budget_left()) return false;
-  if (insert_surface_point(ball.center, facet.cell)) ++report_.surface_insertions;
-  return true;
+bool Refinement::has_interior_vertex(FacetId facet) const {
+  const auto vertices = delaunay_.vertices(facet);
+  return std::any_of(vertices.begin(), vertices.end(),
+                     [this](VertexId v) { return delaunay_.kind(v) == VertexKind::kInterior; });
 }
 
 /// Step 2: a vertex off the surface has no place in a restricted triangle.
-bool Refinement::remove_interior_vertex_of(FacetId facet) {
-  for (VertexId vertex : delaunay_.vertices(facet)) {
-    if (delaunay_.kind(vertex) != VertexKind::kInterior) continue;
-    if (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep();
-    delaunay_.remove(vertex);
-    note_new_facets();
-    ++report_.removals;
-    enqueue_created();
-    return true;
+void Refinement::remove_interior_vertex_of(FacetId facet) {
+  const auto vertices = delaunay_.vertices(facet);
+  const VertexId vertex = *std::find_if(vertices.begin(), vertices.end(),
+                                        [this](VertexId v) { return delaunay_.kind(v) == VertexKind::kInterior; });
+  if (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep();
+  delaunay_.remove(vertex);
+  note_new_facets();
+  for (CellId cell : delaunay_.created()) {
+    const auto& corners = delaunay_.vertices(cell);
+    if (edges_looked_at_) since_edges_.insert(since_edges_.end(), corners.begin(), corners.end());
   }
-  return false;
+  ++report_.removals;
+  enqueue_created();
 }
 
-Refinement::Fault Refinement::fault_of(FacetId facet, const SurfaceBall& ball) const {
+/// Size, Quality and deviation: is the facet's ball to be split?
+Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) const {
   const double size = surface_.size(ball.center);
-  if (ball.squared_radius > size * size) return Fault::kSize;
+  if (ball.squared_radius > size * size) return Verdict::kSplit;
   const auto v = delaunay_.vertices(facet);
   const TriangleShape shape = triangle_shape(delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]));
   // sin(smallest angle) = shortest edge / (2 circumradius); a hair stricter, so that what is written still holds.
   const double sine = std::sin(surface_.min_angle_degrees * std::numbers::pi / 180);
-  if (shape.shortest_squared_edge < 4 * sine * sine * shape.squared_circumradius * (1 + 1e-9)) return Fault::kAngle;
-  if (std::isfinite(surface_.max_deviation)) {
-    const double squared_deviation = ball.squared_radius - shape.squared_circumradius;
-    if (squared_deviation > surface_.max_deviation * surface_.max_deviation) return Fault::kDeviation;
-  }
-  return Fault::kNone;
+  if (shape.shortest_squared_edge < 4 * sine * sine * shape.squared_circumradius * (1 + 1e-9)) return Verdict::kSplit;
+  if (!std::isfinite(surface_.max_deviation)) return Verdict::kGood;
+  const double squared_deviation = ball.squared_radius - shape.squared_circumradius;
+  if (squared_deviation <= surface_.max_deviation * surface_.max_deviation) return Verdict::kGood;
+  const double smallest = surface_.min_ball_radius;
+  return ball.squared_radius <= smallest * smallest ? Verdict::kTooDeviant : Verdict::kSplit;
 }
 
 bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
@@ -127,12 +114,14 @@ bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
 }
 
 void Refinement::mark_dirty(FacetId facet) {
-  for (VertexId vertex : delaunay_.vertices(facet)) {
-    if (vertex >= is_dirty_.size()) is_dirty_.resize(delaunay_.vertex_capacity(), 0);
-    if (is_dirty_[vertex]) continue;
-    is_dirty_[vertex] = 1;
-    dirty_.push_back(vertex);
-  }
+  for (VertexId vertex : delaunay_.vertices(facet)) mark_dirty(vertex);
+}
+
+void Refinement::mark_dirty(VertexId vertex) {
+  if (vertex >= is_dirty_.size()) is_dirty_.resize(delaunay_.vertex_capacity(), 0);
+  if (is_dirty_[vertex]) return;
+  is_dirty_[vertex] = 1;
+  dirty_.push_back(vertex);
 }
 
 bool Refinement::repair_topology() {
@@ -171,7 +160,7 @@ bool Refinement::repair_umbrella(VertexId vertex) {
     return false;
   }
   // What Voronoi edges have asked for makes small balls, hence work here, where nothing is as thin as all that.
-  if (next_stamp_after_edges_ == 0) effort_.add(std::sqrt(largest.squared_radius), vertex_count());
+  if (!edges_looked_at_) effort_.add(std::sqrt(largest.squared_radius), vertex_count());
   if (!insert_surface_point(largest.center, facet.cell)) return false;
   ++report_.topology_insertions;
   return true;

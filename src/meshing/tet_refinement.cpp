@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "core/parallel.h"
 #include "meshing/refinement.h"
 
 namespace delvox {
@@ -20,13 +21,15 @@ double shortest_squared_edge(const RestrictedDelaunay& delaunay, CellId cell) {
 
 void Refinement::watch_tets(const TetCriteria& criteria) {
   tet_criteria_ = &criteria;
-  tets_.clear();
-  for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) {
-    const std::uint32_t stamp = delaunay_.stamp(cell);
-    if (stamp != 0 && delaunay_.label(cell) != 0 && !delaunay_.placeholder(cell) && bad(cell)) {
-      tets_.push_back({cell, stamp});
+  constexpr std::size_t kChunk = 4096;
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<RefinementQueues::WaitingTet>& found) {
+    for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
+      const std::uint32_t stamp = delaunay_.stamp(cell);
+      const bool in_domain = stamp != 0 && delaunay_.label(cell) != 0 && !delaunay_.placeholder(cell);
+      if (in_domain && bad(cell)) found.push_back({cell, stamp});
     }
-  }
+  };
+  queues_.tets = gather_chunks<RefinementQueues::WaitingTet>(delaunay_.cell_capacity(), kChunk, collect);
 }
 
 bool Refinement::bad(CellId cell) const {
@@ -37,36 +40,33 @@ bool Refinement::bad(CellId cell) const {
   return sphere.squared_radius > bound * shortest_squared_edge(delaunay_, cell);
 }
 
-void Refinement::refine_tets() {
-  while (!tets_.empty()) {
-    const WaitingTet waiting = tets_.back();
-    tets_.pop_back();
-    if (!delaunay_.alive(waiting.cell, waiting.stamp)) continue;
-    if (!budget_left()) return;
-    split_tet(waiting.cell);
-    refine_surface();
-    if (delaunay_.alive(waiting.cell, waiting.stamp)) tets_.push_back(waiting);
-  }
-}
-
-void Refinement::split_tet(CellId cell) {
-  const Point3 z = delaunay_.sphere(cell).center;
-  const Star& star = evaluate(z, cell);
-  SurfaceBall ball;
+/// The last tet waiting: leaves the queue if it is gone or nothing can be inserted for it.
+void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
+  const auto waiting = queues.tets.back();
+  if (!delaunay_.alive(waiting.cell, waiting.stamp)) return queues.tets.pop_back();
+  const Point3 z = delaunay_.sphere(waiting.cell).center;
+  Star& star = lane.lane.star;
+  VertexKind kind = VertexKind::kInterior;  // 7(b)
+  delaunay_.evaluate(z, waiting.cell, worker, star);
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
-  if (star.duplicate || find_encroached_ball(star, ball) || find_new_ball(star, ball)) {
-    if (!star.duplicate && insert_surface_point(ball.center, star.zone.front())) {
-      ++report_.surface_insertions;
-    } else {
-      ++stuck_;
-      stuck_place_ = z;
-      tets_.clear();
-    }
-    return;
+  SurfaceBall ball;
+  if (!delaunay_.disturbs_aside(star.zone) && !star.duplicate &&
+      (find_encroached_ball(star, ball) || find_new_ball(star, *worker.oracle, ball))) {
+    kind = VertexKind::kSurface;
+    delaunay_.evaluate(ball.center, star.zone.front(), worker, star);
   }
-  delaunay_.commit(VertexKind::kInterior);  // 7(b)
-  enqueue_created();
-  ++report_.interior_insertions;
+  if (delaunay_.disturbs_aside(star.zone)) {
+    if (alone) return insert_deep();
+    lane.aside.tets.push_back(waiting);
+    return queues.tets.pop_back();
+  }
+  if (star.duplicate) {
+    ++lane.stuck;
+    lane.stuck_place = z;
+    return queues.tets.pop_back();
+  }
+  lane.insertion = kind;
+  lane.for_facet = false;
 }
 
 /// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z.
@@ -82,10 +82,10 @@ bool Refinement::find_encroached_ball(const Star& star, SurfaceBall& largest) co
   return largest.squared_radius > 0;
 }
 
-bool Refinement::find_new_ball(const Star& star, SurfaceBall& largest) const {
+bool Refinement::find_new_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const {
   const auto consider = [&](const Circumsphere& a, Label label_a, const Circumsphere& b, Label label_b,
                             const Point3& corner) {
-    const Point3 center = delaunay_.dual_crossing(a.center, label_a, b.center, label_b);
+    const Point3 center = RestrictedDelaunay::dual_crossing(a.center, label_a, b.center, label_b, oracle);
     const double squared_radius = squared_distance(center, corner);
     if (squared_radius > largest.squared_radius) largest = {center, squared_radius};
   };

@@ -4,6 +4,9 @@
 #include <array>
 #include <span>
 
+#include "core/parallel.h"
+#include "delaunay/restricted_triangles.h"
+
 namespace delvox {
 namespace {
 
@@ -44,14 +47,7 @@ class Links {
  public:
   explicit Links(const RestrictedDelaunay& delaunay) : first_(delaunay.vertex_capacity() + 1, 0) {
     std::vector<std::array<VertexId, 3>> triangles;
-    for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
-      if (delaunay.stamp(cell) == 0 || !delaunay.has_balls(cell)) continue;
-      for (int i = 0; i < 4; ++i) {
-        if (delaunay.label(cell) > delaunay.label(delaunay.neighbors(cell)[i])) {
-          triangles.push_back(delaunay.vertices(FacetId{cell, i}));
-        }
-      }
-    }
+    for (FacetId facet : restricted_triangles(delaunay)) triangles.push_back(delaunay.vertices(facet));
     for (const auto& triangle : triangles) {
       for (VertexId v : triangle) ++first_[v + 1];
     }
@@ -95,16 +91,19 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
 
 std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
   constexpr std::size_t kSweepPays = 16;  // a sweep costs about as much as walking around a vertex in sixteen
-  std::vector<VertexId> result;
+  constexpr std::size_t kChunk = 256;
+  const auto select = [&](const auto& disk) {
+    return gather_chunks<VertexId>(vertices.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (!disk(vertices[i])) found.push_back(vertices[i]);
+      }
+    });
+  };
   if (vertices.size() * kSweepPays < delaunay.vertex_capacity()) {
-    std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(result),
-                 [&](VertexId v) { return !find_umbrella(delaunay, v).disk; });
-    return result;
+    return select([&](VertexId v) { return find_umbrella(delaunay, v).disk; });
   }
   const Links links(delaunay);
-  std::copy_if(vertices.begin(), vertices.end(), std::back_inserter(result),
-               [&](VertexId v) { return !is_one_cycle(links.of(v)); });
-  return result;
+  return select([&](VertexId v) { return is_one_cycle(links.of(v)); });
 }
 
 }  // namespace delvox

@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <span>
 
+#include "core/parallel.h"
+#include "delaunay/restricted_triangles.h"
 #include "meshing/refinement.h"
 
 namespace delvox {
@@ -18,40 +20,76 @@ constexpr double kMostGrowth = 0.2;
 
 }  // namespace
 
-/// VorEdge (book, 14.2.1) on the edges of cells with a stamp from `first_new` on: the topological ball property allows
-/// a Voronoi edge one crossing. One that makes an excursion to the other side and back is a neck that the mesh cuts, or
-/// a gap that it bridges. As in the book, the crossing farthest from the vertices goes in; it is half an excursion away
-/// from them, so that this ends if excursions shorter than a bound are left alone, as they must be: trilinear surfaces
-/// have creases at the faces of voxels, along which Voronoi edges of any mesh make some.
-bool Refinement::repair_voronoi_edges(std::uint32_t first_new) {
-  const bool grown = expected_topology_ && closer_insertions_ > kMostGrowth * vertices_at_first_look_;
-  if (grown) return false;
-  std::vector<MisplacedCell> misplaced;
-  next_stamp_after_edges_ = delaunay_.next_stamp();
-  for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay_.cell_capacity(); ++cell) {
-    const std::uint32_t stamp = delaunay_.stamp(cell);
-    if (stamp == 0 || stamp < first_new) continue;
-    for (int i = 0; i < 4; ++i) {
-      const CellId neighbor = delaunay_.neighbors(cell)[i];
-      const bool met_from_there = delaunay_.stamp(neighbor) >= first_new && neighbor < cell;
-      if (met_from_there || neighbor == RestrictedDelaunay::kBeyond) continue;
-      if (const auto p = crossing_of_excursion({cell, i})) misplaced.push_back({*p, cell, stamp});
-    }
-  }
+/// VorEdge (book, 14.2.1): the topological ball property allows a Voronoi edge one crossing. One that makes an excursion
+/// to the other side and back is a neck that the mesh cuts, or a gap that it bridges. As in the book, the crossing
+/// farthest from the vertices goes in; it is half an excursion away from them, so that this ends if excursions shorter
+/// than a bound are left alone, as they must be: trilinear surfaces have creases at the faces of voxels, along which
+/// Voronoi edges of any mesh make some.
+///
+/// Looks at all edges the first time, and `again`; else at those of new vertices: insertions only shorten the others.
+bool Refinement::repair_voronoi_edges(bool again) {
+  if (looks_closer_ && closer_insertions_ > kMostGrowth * static_cast<double>(vertices_at_first_look_)) return false;
+  std::vector<VertexId> changed;
+  changed.swap(since_edges_);
+  const bool all = again || !edges_looked_at_;
+  edges_looked_at_ = true;
   const std::size_t before = report_.topology_insertions;
-  const bool inserted = insert_where_misplaced(misplaced);
-  if (expected_topology_) closer_insertions_ += report_.topology_insertions - before;
+  const bool inserted = insert_where_misplaced(all ? excursions_of_all() : excursions_at(std::move(changed)));
+  if (looks_closer_) closer_insertions_ += report_.topology_insertions - before;
   return inserted;
 }
 
+std::vector<Refinement::MisplacedCell> Refinement::excursions_of_all() const {
+  constexpr std::size_t kChunk = 4096;
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<MisplacedCell>& misplaced) {
+    const Oracle& oracle = *delaunay_.worker().oracle;
+    for (auto cell = std::max(static_cast<CellId>(begin), RestrictedDelaunay::kBeyond + 1); cell < end; ++cell) {
+      if (delaunay_.stamp(cell) == 0) continue;
+      for (int i = 0; i < 4; ++i) {
+        const CellId neighbor = delaunay_.neighbors(cell)[i];
+        if (neighbor < cell) continue;  // met from there; so is what lies beyond all cells
+        if (const auto p = crossing_of_excursion({cell, i}, oracle)) {
+          misplaced.push_back({*p, cell, delaunay_.stamp(cell)});
+        }
+      }
+    }
+  };
+  return gather_chunks<MisplacedCell>(delaunay_.cell_capacity(), kChunk, collect);
+}
+
+std::vector<Refinement::MisplacedCell> Refinement::excursions_at(std::vector<VertexId> vertices) const {
+  constexpr std::size_t kChunk = 64;
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<MisplacedCell>& misplaced) {
+    const Oracle& oracle = *delaunay_.worker().oracle;
+    for (std::size_t v = begin; v < end; ++v) {
+      if (delaunay_.kind(vertices[v]) != VertexKind::kSurface) continue;
+      for (CellId cell : delaunay_.incident_cells(vertices[v])) {
+        for (int i = 0; i < 4; ++i) {
+          const CellId neighbor = delaunay_.neighbors(cell)[i];
+          if (neighbor < cell || delaunay_.vertices(cell)[i] == vertices[v]) continue;
+          if (const auto p = crossing_of_excursion({cell, i}, oracle)) {
+            misplaced.push_back({*p, cell, delaunay_.stamp(cell)});
+          }
+        }
+      }
+    }
+  };
+  return gather_chunks<MisplacedCell>(vertices.size(), kChunk, collect);
+}
+
 /// If the dual edge leaves its side for a while: its crossing farthest from the facet's vertices.
-std::optional<Point3> Refinement::crossing_of_excursion(FacetId facet) const {
+std::optional<Point3> Refinement::crossing_of_excursion(FacetId facet, const Oracle& oracle) const {
   const auto vertices = delaunay_.vertices(facet);
   const bool on_surface = std::all_of(vertices.begin(), vertices.end(),
                                       [this](VertexId v) { return delaunay_.kind(v) == VertexKind::kSurface; });
   if (!on_surface) return std::nullopt;
   const CellId neighbor = delaunay_.neighbors(facet.cell)[facet.index];
-  const auto crossings = oracle_.intersect_all(delaunay_.sphere(facet.cell).center, delaunay_.sphere(neighbor).center);
+  const Point3 &a = delaunay_.sphere(facet.cell).center, &b = delaunay_.sphere(neighbor).center;
+  const double shortest = shortest_excursion_ * surface_.size.minimum();
+  if (squared_distance(a, b) <= shortest * shortest) return std::nullopt;
+  const auto crossings = oracle.intersect_all(a, b);
   if (crossings.size() < 2) return std::nullopt;
   if (!far_apart(crossings, shortest_excursion_ * surface_.size(crossings[0]))) return std::nullopt;
   const Point3& corner = delaunay_.point(vertices[0]);
@@ -66,35 +104,43 @@ bool Refinement::look_closer() {
   // Among interior vertices the shortest take many insertions and find little.
   const double shortest_of_all = tet_criteria_ != nullptr ? 0.02 : 0.001;
   if (!surface_.size.constant()) return false;  // where the mesh is coarse it may differ
-  if (!expected_topology_) {
+  if (!looks_closer_) {
+    looks_closer_ = true;
     expected_topology_ = oracle_.topology();
     vertices_at_first_look_ = vertex_count();
   }
   if (!expected_topology_ || topology() == *expected_topology_) return false;
   while (shortest_excursion_ > shortest_of_all) {
     shortest_excursion_ /= 2;
-    if (repair_voronoi_edges(0)) return true;
+    if (repair_voronoi_edges(true)) return true;
   }
   return false;
 }
 
 /// Of the surface as it is. pre: every umbrella is a disk.
 SurfaceTopology Refinement::topology() const {
-  std::size_t triangles = 0, vertices = 0;
-  std::vector<bool> met(delaunay_.vertex_capacity(), false);
-  for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay_.cell_capacity(); ++cell) {
-    if (delaunay_.stamp(cell) == 0) continue;
-    for (int i = 0; i < 4; ++i) {
-      if (delaunay_.label(cell) <= delaunay_.label(delaunay_.neighbors(cell)[i])) continue;
-      ++triangles;
-      for (VertexId v : delaunay_.vertices(FacetId{cell, i})) {
-        vertices += !met[v];
-        met[v] = true;
-      }
+  const std::vector<FacetId> triangles = restricted_triangles(delaunay_);
+  std::vector<VertexId> parent(delaunay_.vertex_capacity(), kNone);  // of each vertex in a forest of the components
+  const auto root = [&](VertexId v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  std::size_t vertices = 0, joined = 0;
+  for (FacetId facet : triangles) {
+    const auto corners = delaunay_.vertices(facet);
+    for (VertexId v : corners) {
+      if (parent[v] != kNone) continue;
+      parent[v] = v;
+      ++vertices;
+    }
+    for (int i = 1; i < 3; ++i) {
+      const VertexId a = root(corners[0]), b = root(corners[i]);
+      joined += a != b;
+      parent[std::max(a, b)] = std::min(a, b);
     }
   }
-  // A closed surface has three edges for every two triangles; between pieces that form a tree there is one less.
-  return {find_pieces(delaunay_).count - 1, static_cast<long>(vertices) - static_cast<long>(triangles / 2)};
+  // A closed surface has three edges for every two triangles.
+  return {vertices - joined, static_cast<long>(vertices) - static_cast<long>(triangles.size() / 2)};
 }
 
 }  // namespace delvox

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "delaunay/restricted_delaunay.h"
+
+namespace delvox {
+
+/// The lazy queues of refinement (book, 14.1.3): entries are not withdrawn when the mesh changes, but tested when their
+/// turn comes.
+struct RefinementQueues {
+  struct WaitingFacet {
+    FacetId facet;
+    std::uint32_t stamp;
+  };
+  struct WaitingTet {
+    CellId cell;
+    std::uint32_t stamp;
+  };
+
+  std::vector<WaitingFacet> facets;  ///< that may be restricted; first in, first out from next_facet
+  std::size_t next_facet = 0;
+  std::vector<WaitingTet> tets;  ///< that break a criterion; last in, first out
+
+  std::size_t facets_waiting() const { return facets.size() - next_facet; }
+  std::size_t waiting() const { return facets_waiting() + tets.size(); }
+  void pop_facet() {
+    if (++next_facet < facets.size()) return;
+    facets.clear();
+    next_facet = 0;
+  }
+};
+
+/// A lane of refinement: its share of the queues, what it is about to do, and what there is to tell of it.
+struct RefinementLane {
+  struct JudgedFacet {
+    RefinementQueues::WaitingFacet waiting;
+    SurfaceBall ball;
+    bool too_deviant;
+  };
+  struct Change {
+    Box3 box;
+    VertexId near;
+  };
+
+  Lane lane;
+  RefinementQueues queues;
+
+  // Found by look(), to be done by conclude() if the claims hold.
+  std::vector<JudgedFacet> judged;      ///< their balls are to be kept
+  std::optional<VertexKind> insertion;  ///< the apex of lane.star is to be inserted as such
+  bool for_facet = false;               ///< for the first facet waiting, else for the last tet
+  Box3 changing;                        ///< what of the surface the insertion changes
+
+  // For Refinement to collect.
+  RefinementQueues aside;  ///< what can only be treated with no other lane beside
+  std::vector<VertexId> dirty;
+  std::vector<Change> changes;
+  std::size_t surface_insertions = 0, interior_insertions = 0, too_deviant = 0, stuck = 0;
+  Point3 deviant_place, stuck_place;
+};
+
+}  // namespace delvox

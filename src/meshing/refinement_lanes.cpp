@@ -1,0 +1,279 @@
+#include <algorithm>
+#include <utility>
+
+#include "core/parallel.h"
+#include "delaunay/spatial_order.h"
+#include "meshing/refinement.h"
+
+namespace delvox {
+namespace {
+
+constexpr std::size_t kMostLanes = 8, kFewestLanes = 8, kWaitingPerLane = 32, kLanesPerChunk = 1;
+/// Facets that a lane may judge before the others are waited for.
+constexpr std::size_t kMostJudged = 16;
+
+/// The part of `all` that lane `lane` of so many gets.
+template <class T>
+void take_share(const std::vector<T>& all, std::size_t first, std::size_t lane, std::size_t lanes, std::vector<T>& share) {
+  const std::size_t count = all.size() - first;
+  const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(first + count * i / lanes); };
+  share.insert(share.end(), at(lane), at(lane + 1));
+}
+
+void append(RefinementQueues& to, const RefinementQueues& from) {
+  take_share(from.facets, from.next_facet, 0, 1, to.facets);
+  take_share(from.tets, 0, 0, 1, to.tets);
+}
+
+}  // namespace
+
+/// How many lanes to work in: a matter of the mesh alone, never of the number of threads.
+std::size_t Refinement::lanes_for(std::size_t waiting) {
+  const std::size_t lanes = waiting / kWaitingPerLane;
+  return lanes < kFewestLanes ? 1 : std::min(lanes, kMostLanes);
+}
+
+/// Until nothing waits, or the budget is used up: in lanes as long as there is enough for several, then what must or
+/// may as well be done alone.
+void Refinement::refine() {
+  while (queues_.waiting() > 0 && !budget_.exhausted()) {
+    if (queues_.facets_waiting() > 0 && !queues_.tets.empty()) {
+      // Facets first: a tet must not be split in a surface ball that is not known yet.
+      const auto tets = std::exchange(queues_.tets, {});
+      refine();
+      queues_.tets.insert(queues_.tets.begin(), tets.begin(), tets.end());
+      continue;
+    }
+    RefinementQueues aside;
+    while (lanes_for(queues_.waiting()) > 1 && !budget_.exhausted()) run_lanes(aside);
+    const std::size_t at_least = aside.waiting();
+    append(aside, queues_);
+    std::rotate(aside.tets.begin(), aside.tets.end() - static_cast<std::ptrdiff_t>(queues_.tets.size()), aside.tets.end());
+    queues_ = std::move(aside);
+    run_alone(at_least);
+  }
+}
+
+/// Sorts entries along a curve through space, so that each lane gets a place of its own. Entries that are dead by now
+/// may come anywhere.
+template <class Waiting, class CellOf>
+void Refinement::sort_by_place(std::vector<Waiting>& entries, std::size_t first, const CellOf& cell_of) const {
+  constexpr std::size_t kChunk = 4096;
+  struct Keyed {
+    std::uint64_t key;
+    std::uint32_t position;
+  };
+  const Box3 box = oracle_.bounds();
+  std::vector<Keyed> keys(entries.size() - first);
+  for_each_chunk(keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const VertexId corner = delaunay_.vertices(cell_of(entries[first + i]))[0];
+      keys[i] = {place_along_curve(delaunay_.point(corner), box), static_cast<std::uint32_t>(i)};
+    }
+  });
+  parallel_sort(keys, [](const Keyed& a, const Keyed& b) {
+    return a.key != b.key ? a.key < b.key : a.position < b.position;
+  });
+  std::vector<Waiting> sorted(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(first));
+  for (const Keyed& key : keys) sorted.push_back(entries[first + key.position]);
+  entries = std::move(sorted);
+}
+
+/// Gives each lane its share of what waits, and lets them work until half of them have nothing left.
+void Refinement::run_lanes(RefinementQueues& aside) {
+  const std::size_t lanes = lanes_for(queues_.waiting());
+  sort_by_place(queues_.facets, queues_.next_facet, [](const auto& waiting) { return waiting.facet.cell; });
+  sort_by_place(queues_.tets, 0, [](const auto& waiting) { return waiting.cell; });
+  if (lanes_.size() < lanes) lanes_.resize(lanes);
+  for (std::size_t i = 0; i < lanes; ++i) {
+    take_share(queues_.facets, queues_.next_facet, i, lanes, lanes_[i].queues.facets);
+    take_share(queues_.tets, 0, i, lanes, lanes_[i].queues.tets);
+  }
+  queues_ = {};
+  const auto for_each_lane = [&](const auto& visit) {
+    for_each_chunk(lanes, kLanesPerChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) visit(lanes_[i]);
+    });
+  };
+  std::size_t busy = lanes;
+  while (2 * busy > lanes && !budget_.exhausted()) {
+    const std::uint32_t first_claim = delaunay_.new_claims(static_cast<std::uint32_t>(lanes));
+    for (std::size_t i = 0; i < lanes; ++i) lanes_[i].lane.claim = first_claim + static_cast<std::uint32_t>(i);
+    // As for one lane: no tet's turn comes as long as a facet waits.
+    tets_wait_ = std::any_of(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(lanes),
+                             [](const auto& lane) { return lane.queues.facets_waiting() > 0; });
+    for_each_lane([&](RefinementLane& lane) { look(lane, lane.queues, false); });
+    keep_to_budget(lanes);
+    for (std::size_t i = 0; i < lanes; ++i) furnish(lanes_[i]);
+    for_each_lane([&](RefinementLane& lane) { conclude(lane, lane.queues); });
+    busy = static_cast<std::size_t>(std::count_if(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(lanes),
+                                                  [](const auto& lane) { return lane.queues.waiting() > 0; }));
+  }
+  for (std::size_t i = 0; i < lanes; ++i) {
+    append(queues_, std::exchange(lanes_[i].queues, {}));
+    append(aside, std::exchange(lanes_[i].aside, {}));
+    collect(lanes_[i]);
+  }
+}
+
+/// Takes back insertions that the budget has no room for.
+void Refinement::keep_to_budget(std::size_t lanes) {
+  std::size_t room = 0;
+  bool asked = false;
+  for (std::size_t i = 0; i < lanes; ++i) {
+    if (!lanes_[i].insertion) continue;
+    if (!std::exchange(asked, true) && budget_left()) room = budget_.room(vertex_count());
+    if (room == 0) lanes_[i].insertion.reset();
+    if (lanes_[i].insertion && delaunay_.holds(lanes_[i].lane)) --room;
+  }
+}
+
+/// One thing after the other, at least so many, and on until there is enough for several lanes.
+void Refinement::run_alone(std::size_t at_least) {
+  if (lanes_.empty()) lanes_.resize(1);
+  RefinementLane& lane = lanes_.front();
+  tets_wait_ = false;
+  for (std::size_t done = 0; queues_.waiting() > 0; ++done) {
+    if (done >= at_least && lanes_for(queues_.waiting()) > 1) break;
+    lane.lane.claim = delaunay_.new_claims(1);
+    look(lane, queues_, true);
+    if (lane.insertion && !budget_left()) break;
+    furnish(lane);
+    conclude(lane, queues_);
+  }
+  collect(lane);
+}
+
+void Refinement::furnish(RefinementLane& lane) {
+  if (lane.insertion || !lane.judged.empty()) {
+    // No star has more facets than twice its tets.
+    const std::size_t new_facets = lane.insertion && tet_criteria_ != nullptr ? 2 * lane.lane.star.tets.size() + 2 : 0;
+    delaunay_.furnish(lane.lane, lane.insertion.has_value(), lane.judged.size() + new_facets);
+  }
+}
+
+void Refinement::collect(RefinementLane& lane) {
+  for (VertexId vertex : lane.dirty) mark_dirty(vertex);
+  for (const RefinementLane::Change& change : lane.changes) note_change(change.box, change.near);
+  report_.surface_insertions += std::exchange(lane.surface_insertions, 0);
+  report_.interior_insertions += std::exchange(lane.interior_insertions, 0);
+  if (lane.too_deviant > 0) deviant_place_ = lane.deviant_place;
+  too_deviant_ += std::exchange(lane.too_deviant, 0);
+  if (lane.stuck > 0) stuck_place_ = lane.stuck_place;
+  stuck_ += std::exchange(lane.stuck, 0);
+  lane.dirty.clear();
+  lane.changes.clear();
+  delaunay_.clear_out(lane.lane);
+}
+
+/// Finds out what is to be done next, and claims what that touches: steps 2 and 3 first, step 7 only if no facet waits.
+/// Changes nothing that other lanes could see, unless it is `alone`.
+void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone) {
+  lane.judged.clear();
+  lane.insertion.reset();
+  Worker& worker = delaunay_.worker();
+  while (queues.facets_waiting() > 0 && !lane.insertion && lane.judged.size() < kMostJudged) {
+    look_at_facet(lane, queues, worker, alone);
+  }
+  while (!tets_wait_ && lane.judged.empty() && queues.facets_waiting() == 0 && !queues.tets.empty() && !lane.insertion) {
+    look_at_tet(lane, queues, worker, alone);
+  }
+  for (const auto& judged : lane.judged) delaunay_.claim(judged.waiting.facet, lane.lane.claim);
+  if (!lane.insertion) return;
+  delaunay_.claim(lane.lane);
+  if (!watch_.empty() && lane.insertion == VertexKind::kSurface) lane.changing = box_of_change(lane.lane.star);
+}
+
+/// The first facet waiting: leaves the queue, unless something is to be inserted for it.
+void Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
+  const auto waiting = queues.facets[queues.next_facet];
+  const FacetId facet = waiting.facet;
+  if (!delaunay_.alive(facet.cell, waiting.stamp) || !delaunay_.bipolar(facet)) return queues.pop_facet();
+  if (has_interior_vertex(facet)) {
+    queues.pop_facet();
+    return alone ? remove_interior_vertex_of(facet) : lane.aside.facets.push_back(waiting);
+  }
+  const SurfaceBall* const known = delaunay_.ball(facet);
+  const SurfaceBall ball = known != nullptr ? *known : delaunay_.find_ball(facet, *worker.oracle);
+  const Verdict verdict = judge(facet, ball);
+  if (verdict != Verdict::kSplit) {
+    if (known == nullptr) lane.judged.push_back({waiting, ball, verdict == Verdict::kTooDeviant});
+    return queues.pop_facet();
+  }
+  Star& star = lane.lane.star;
+  delaunay_.evaluate(ball.center, facet.cell, worker, star);
+  if (delaunay_.disturbs_aside(star.zone)) {
+    if (alone) return insert_deep();
+    lane.aside.facets.push_back(waiting);
+    return queues.pop_facet();
+  }
+  if (star.duplicate) {
+    ++lane.stuck;
+    lane.stuck_place = ball.center;
+    if (known == nullptr) lane.judged.push_back({waiting, ball, false});
+    return queues.pop_facet();
+  }
+  lane.insertion = VertexKind::kSurface;
+  lane.for_facet = true;
+}
+
+void Refinement::keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant) {
+  delaunay_.keep_ball(facet, ball, lane.lane);
+  mark_dirty(lane, facet);
+  lane.too_deviant += too_deviant;
+  if (too_deviant) lane.deviant_place = ball.center;
+}
+
+void Refinement::mark_dirty(RefinementLane& lane, FacetId facet) const {
+  const auto vertices = delaunay_.vertices(facet);
+  lane.dirty.insert(lane.dirty.end(), vertices.begin(), vertices.end());
+}
+
+/// Does what look() has found, as far as the lane holds its claims: what it does not waits on.
+void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
+  for (const auto& [waiting, ball, too_deviant] : lane.judged) {
+    if (!delaunay_.holds(waiting.facet, lane.lane.claim)) {
+      queues.facets.push_back(waiting);
+    } else if (delaunay_.ball(waiting.facet) == nullptr) {  // else judged from its other side, too
+      keep(lane, waiting.facet, ball, too_deviant);
+    }
+  }
+  if (!lane.insertion || !delaunay_.holds(lane.lane)) return;
+  for (CellId cell : lane.lane.star.zone) {
+    for (int i = 0; i < 4 && delaunay_.has_balls(cell); ++i) {
+      if (delaunay_.ball({cell, i}) != nullptr) mark_dirty(lane, {cell, i});
+    }
+  }
+  if (lane.for_facet) {
+    mark_dirty(lane, queues.facets[queues.next_facet].facet);
+    queues.pop_facet();
+  }
+  const VertexId inserted = delaunay_.commit(lane.lane, *lane.insertion);
+  const bool on_surface = lane.insertion == VertexKind::kSurface;
+  if (on_surface && !watch_.empty()) lane.changes.push_back({lane.changing, inserted});
+  ++(on_surface ? lane.surface_insertions : lane.interior_insertions);
+  const std::size_t first_new = queues.facets.size();
+  enqueue(lane.lane.created, queues);
+  if (tet_criteria_ != nullptr) judge_new(lane, queues, first_new);
+}
+
+/// Facets from number `first` on have just been made by the lane: their balls become known before any other tet is
+/// looked at, which might lie in one of them. Those that meet the criteria need not wait.
+void Refinement::judge_new(RefinementLane& lane, RefinementQueues& queues, std::size_t first) {
+  const Oracle& oracle = *delaunay_.worker().oracle;
+  const auto is_done = [&](const RefinementQueues::WaitingFacet& waiting) {
+    if (has_interior_vertex(waiting.facet) || delaunay_.ball(waiting.facet) != nullptr) return false;
+    const SurfaceBall ball = delaunay_.find_ball(waiting.facet, oracle);
+    const Verdict verdict = judge(waiting.facet, ball);
+    keep(lane, waiting.facet, ball, verdict == Verdict::kTooDeviant);
+    return verdict != Verdict::kSplit;
+  };
+  auto& facets = queues.facets;
+  facets.erase(std::remove_if(facets.begin() + static_cast<std::ptrdiff_t>(first), facets.end(), is_done), facets.end());
+  if (queues.next_facet > 0 && queues.next_facet >= facets.size()) {
+    facets.clear();
+    queues.next_facet = 0;
+  }
+}
+
+}  // namespace delvox
