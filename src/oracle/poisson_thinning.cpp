@@ -13,8 +13,19 @@ Cube cube_of(const Point3& p, double width) {
           static_cast<std::int64_t>(std::floor(p.z / width))};
 }
 
-/// Low bits for the place within a block of cubes, so that FlatHash keeps neighbours together. Cubes with equal keys
-/// share a list; distances are always tested, so that costs time only.
+Cube block_of(const Cube& cube) {
+  return {cube[0] >> 2, cube[1] >> 2, cube[2] >> 2};
+}
+
+/// Neighbours in the order of their 2x2x2 cubes, which share a line of the cache with their likes.
+std::size_t place_in_block(const Cube& cube) {
+  const auto low = [&](int axis) { return static_cast<std::size_t>(cube[axis] & 1) << axis; };
+  const auto high = [&](int axis) { return static_cast<std::size_t>(cube[axis] >> 1 & 1) << (axis + 3); };
+  return low(0) | low(1) | low(2) | high(0) | high(1) | high(2);
+}
+
+/// Low bits for the place among neighbours, so that FlatHash keeps them together. Blocks with equal keys are one;
+/// distances are always tested, so that costs time only.
 std::uint64_t key_of(const Cube& c) {
   const auto bits = [](std::int64_t i, int from, int count) {
     return static_cast<std::uint64_t>(i) >> from & ((std::uint64_t{1} << count) - 1);
@@ -35,7 +46,7 @@ bool PoissonThinner::keep(const Point3& p, double spacing) {
   for (const Level& level : levels_) {
     if (near_kept(level, p, std::min(spacing, level.width))) return false;
   }
-  std::uint32_t& first = own.first[key_of(cube_of(p, own.width))];
+  std::uint32_t& first = own.first_in(cube_of(p, own.width));
   last_near_ = static_cast<std::uint32_t>(kept_.size());
   kept_.push_back({p, spacing * spacing, first});
   first = last_near_;
@@ -47,7 +58,16 @@ PoissonThinner::Level& PoissonThinner::level_of(double spacing) {
   if (std::frexp(spacing / usual_, &octave) == 0.5) --octave;  // usual * 2^octave is the least that is not below spacing
   const auto known = std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.octave == octave; });
   if (known != levels_.end()) return *known;
-  return levels_.emplace_back(Level{octave, std::max(std::ldexp(usual_, octave), spacing), {}});
+  return levels_.emplace_back(Level{octave, std::max(std::ldexp(usual_, octave), spacing), {}, {}});
+}
+
+std::uint32_t& PoissonThinner::Level::first_in(const Cube& cube) {
+  std::uint32_t& block = number[key_of(block_of(cube))];
+  if (block == FlatHash::kAbsent) {
+    block = static_cast<std::uint32_t>(blocks.size());
+    blocks.emplace_back().fill(kEnd);
+  }
+  return blocks[block][place_in_block(cube)];
 }
 
 bool PoissonThinner::near_kept(const Level& level, const Point3& p, double reach) {
@@ -58,6 +78,17 @@ bool PoissonThinner::near_kept(const Level& level, const Point3& p, double reach
     const double into = p[axis] - static_cast<double>(home[axis]) * level.width, left = level.width - into;
     gap[axis] = {0, into * into, left * left};
   }
+  // The cubes lie in up to 2x2x2 blocks, each looked up when it is first needed.
+  const Cube corner = block_of({home[0] - 1, home[1] - 1, home[2] - 1});
+  constexpr std::uint32_t kUnknown = FlatHash::kAbsent - 1;
+  std::array<std::uint32_t, 8> blocks;
+  blocks.fill(kUnknown);
+  const auto first_in = [&](const Cube& cube) {
+    const Cube at = block_of(cube);
+    std::uint32_t& block = blocks[(at[0] - corner[0]) | (at[1] - corner[1]) << 1 | (at[2] - corner[2]) << 2];
+    if (block == kUnknown) block = level.number.find(key_of(at));
+    return block == FlatHash::kAbsent ? kEnd : level.blocks[block][place_in_block(cube)];
+  };
   constexpr int kStep[3] = {0, -1, 1};
   const double squared_reach = reach * reach;
   for (int k = 0; k < 3; ++k) {
@@ -66,17 +97,16 @@ bool PoissonThinner::near_kept(const Level& level, const Point3& p, double reach
       if (gap_jk >= squared_reach) continue;
       for (int i = 0; i < 3; ++i) {
         if (gap_jk + gap[0][i] >= squared_reach) continue;
-        if (near_in_cube(level, {home[0] + kStep[i], home[1] + kStep[j], home[2] + kStep[k]}, p, squared_reach)) {
-          return true;
-        }
+        const std::uint32_t first = first_in({home[0] + kStep[i], home[1] + kStep[j], home[2] + kStep[k]});
+        if (near_in_list(first, p, squared_reach)) return true;
       }
     }
   }
   return false;
 }
 
-bool PoissonThinner::near_in_cube(const Level& level, const Cube& cube, const Point3& p, double squared_reach) {
-  for (std::uint32_t i = level.first.find(key_of(cube)); i != kEnd; i = kept_[i].next) {
+bool PoissonThinner::near_in_list(std::uint32_t first, const Point3& p, double squared_reach) {
+  for (std::uint32_t i = first; i != kEnd; i = kept_[i].next) {
     if (squared_distance(kept_[i].point, p) >= std::min(squared_reach, kept_[i].squared_spacing)) continue;
     last_near_ = i;
     return true;

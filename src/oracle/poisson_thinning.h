@@ -26,17 +26,24 @@ class PoissonThinner {
     double squared_spacing;
     std::uint32_t next;  // in the same cube
   };
-  /// Kept points whose spacings are within one octave, hashed into cubes as wide as the widest of them.
+  using Cube = std::array<std::int64_t, 3>;
+  /// The first kept point of each of 4x4x4 cubes: a surface fills a fair part of the blocks that it meets, so these
+  /// take a fraction of the memory, and of the waiting for it, that hashing cube by cube takes.
+  static constexpr int kBlock = 4;
+  using Block = std::array<std::uint32_t, kBlock * kBlock * kBlock>;
+  /// Kept points whose spacings are within one octave, in cubes as wide as the widest of them.
   struct Level {
     int octave;
     double width;
-    FlatHash first;
+    FlatHash number;  // of a block
+    std::vector<Block> blocks;
+
+    std::uint32_t& first_in(const Cube& cube);
   };
 
   Level& level_of(double spacing);
   bool near_kept(const Level& level, const Point3& p, double reach);
-  bool near_in_cube(const Level& level, const std::array<std::int64_t, 3>& cube, const Point3& p,
-                    double squared_reach);
+  bool near_in_list(std::uint32_t first, const Point3& p, double squared_reach);
 
   double usual_;
   std::vector<Level> levels_;

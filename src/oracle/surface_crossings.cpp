@@ -139,6 +139,7 @@ class ComponentFinder {
       if (root == edge) pieces_.push_back(static_cast<std::uint32_t>(pieces_.size()));
       piece_of_[edge] = root == edge ? pieces_.back() : piece_of_[root];
     }
+    result_.in_brick.push_back(own);
     result_.of_crossing.insert(result_.of_crossing.end(), piece_of_.begin(), piece_of_.begin() + own);
     extents_.resize(pieces_.size());
   }

@@ -49,6 +49,7 @@ struct SurfaceComponents {
     std::size_t crossings = 0;
   };
   std::vector<Component> components;
+  std::vector<std::uint32_t> in_brick;     ///< how many crossings, in the order of for_each_mixed_brick
   std::vector<std::uint32_t> of_crossing;  ///< in the order of for_each_mixed_brick and for_each_crossed_edge
 };
 

@@ -1,15 +1,20 @@
 #include "oracle/voxel_seeds.h"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/hash.h"
-#include "oracle/bracketed_root.h"
+#include "core/parallel.h"
 #include "oracle/poisson_thinning.h"
 #include "oracle/surface_crossings.h"
 
 namespace delvox {
 namespace {
+
+using Index3 = std::array<int, 3>;
 
 /// Seeds lie this much denser than the wanted spacing, so that refinement starts from a nearly finished sample.
 constexpr double kDensity = 0.9;
@@ -27,7 +32,21 @@ std::uint64_t hash_edge(const CrossedEdge& edge, std::uint64_t salt) {
   return mix_hash(mix_hash(place) ^ salt);
 }
 
-/// Walks over the crossings brick by brick and keeps nothing of them but the seeds.
+/// A point that becomes a seed unless thinning refuses it.
+struct Candidate {
+  CrossedEdge edge;
+  Point3 point;             // grid coordinates
+  double spacing = 0;       // in world; 0: kept whatever is near
+  double late_jitter = 0;   // once it is kept, moved off the edge by up to this; 0 if it was already
+};
+
+/// Some mixed bricks, and the number of the first of their crossings.
+struct Chunk {
+  std::size_t first_brick = 0, end_brick = 0, first_crossing = 0;
+};
+
+/// Walks over the crossings brick by brick and keeps nothing of them but the seeds: candidates are made in parallel,
+/// some chunks at a time, and thinned in the order of the crossings while the next are made.
 class SeedMaker {
  public:
   SeedMaker(const BrickField& field, const Affine3& grid_to_world, const SizeField& size, const GoOn& go_on)
@@ -40,35 +59,95 @@ class SeedMaker {
     for (int axis = 0; axis < 3; ++axis) steps_[axis] = norm(to_world_.column(axis));
     voxel_ = std::min({steps_.x, steps_.y, steps_.z});
     least_spacing_ = kDensity * size.minimum();
+    for (const SurfaceComponents::Component& c : found_.components) {
+      if (c.crossings > kFewCrossings) least_spacing_ = std::min(least_spacing_, diagonal(c) / 3);
+    }
   }
 
   Seeds run() {
     seeds_.components = found_.components.size();
-    const std::uint32_t* component = found_.of_crossing.data();
-    field_.for_each_mixed_brick([&](const std::array<int, 3>& brick) {
-      if (stopped_) return;
-      for_each_crossed_edge(field_, brick, BrickEdges(field_, brick),
-                            [&](const CrossedEdge& edge) { visit(edge, *component++); });
-    });
+    const std::vector<Chunk> chunks = cut_into_chunks();
+    Batch now = made(chunks, 0), next;
+    tbb::task_group making;
+    bool going_on = true;
+    for (std::size_t first = kBatch; going_on && !now.empty(); first += kBatch) {
+      making.run([&, first] { next = made(chunks, first); });
+      going_on = thin(now);  // by this thread: go_on may be heard by the caller of the run
+      making.wait();
+      now.swap(next);
+    }
     return std::move(seeds_);
   }
 
  private:
-  void visit(const CrossedEdge& edge, std::uint32_t number) {
-    const SurfaceComponents::Component& component = found_.components[number];
+  /// Candidates of some chunks, in order.
+  using Batch = std::vector<std::vector<Candidate>>;
+  static constexpr std::size_t kBatch = 8, kCandidatesPerChunk = 8192;
+
+  std::vector<Chunk> cut_into_chunks() {
+    const std::size_t most = kCandidatesPerChunk / static_cast<std::size_t>(copies_at(least_spacing_));
+    std::vector<Chunk> chunks;
+    std::size_t crossings = 0;
+    field_.for_each_mixed_brick([&](const Index3& brick) {
+      if (chunks.empty() || crossings - chunks.back().first_crossing >= most) {
+        chunks.push_back({bricks_.size(), bricks_.size(), crossings});
+      }
+      crossings += found_.in_brick[bricks_.size()];
+      bricks_.push_back(brick);
+      chunks.back().end_brick = bricks_.size();
+    });
+    return chunks;
+  }
+
+  Batch made(const std::vector<Chunk>& chunks, std::size_t first) const {
+    const std::size_t count = std::min(kBatch, chunks.size() - std::min(first, chunks.size()));
+    return map_chunks(count, 1, [&](std::size_t n, std::size_t) { return candidates_of(chunks[first + n]); });
+  }
+
+  std::vector<Candidate> candidates_of(const Chunk& chunk) const {
+    std::vector<Candidate> candidates;
+    const std::uint32_t* component = found_.of_crossing.data() + chunk.first_crossing;
+    for (std::size_t n = chunk.first_brick; n < chunk.end_brick; ++n) {
+      for_each_crossed_edge(field_, bricks_[n], BrickEdges(field_, bricks_[n]), [&](const CrossedEdge& edge) {
+        add_candidates(edge, found_.components[*component++], candidates);
+      });
+    }
+    return candidates;
+  }
+
+  void add_candidates(const CrossedEdge& edge, const SurfaceComponents::Component& component,
+                      std::vector<Candidate>& out) const {
+    const double extent = diagonal(component);
     if (component.crossings <= kFewCrossings) {
-      seeds_.points.push_back(jittered(edge, 0, std::min(0.5, 0.05 * diagonal(component) / voxel_)));
+      out.push_back({edge, jittered(edge, 0, std::min(0.5, 0.05 * extent / voxel_))});
       return;
     }
     // Most are turned away by their hash, if the spacing is wide, before anything is computed.
-    const double extent = diagonal(component), draw = unit_interval(hash_edge(edge, 0));
-    if (!drawn(draw, std::min(least_spacing_, extent / 3), extent) || stopped_) return;
+    const double draw = unit_interval(hash_edge(edge, 0));
+    if (!drawn(draw, std::min(kDensity * size_.minimum(), extent / 3), extent)) return;
     const Point3 crossing = edge.point(field_.level());
-    const Point3 world = to_world_(crossing);
-    const double spacing = std::min(kDensity * size_(world), extent / 3);
+    const double spacing = std::min(kDensity * size_(to_world_(crossing)), extent / 3);
     if (!size_.constant() && !drawn(draw, spacing, extent)) return;
-    stopped_ = !go_on_();
-    add_seeds(edge, world, spacing);
+    if (spacing > 2 * voxel_) {
+      // Jittered after thinning: few are kept. Moved by more than a small part of their spacing, some would come so
+      // near to each other that angles ask for many more vertices around them.
+      out.push_back({edge, crossing, spacing, std::min(0.5, 0.07 * spacing / voxel_)});
+      return;
+    }
+    const double reach = spacing < voxel_ ? 0.5 : 0.25 * spacing / voxel_;
+    for (int copy = 0; copy < copies_at(spacing); ++copy) out.push_back({edge, jittered(edge, copy, reach), spacing});
+  }
+
+  /// False if go_on said no.
+  bool thin(const Batch& batch) {
+    for (const std::vector<Candidate>& candidates : batch) {
+      for (const Candidate& c : candidates) {
+        if (!go_on_()) return false;
+        if (c.spacing > 0 && !thinner_.keep(to_world_(c.point), c.spacing)) continue;
+        seeds_.points.push_back(c.late_jitter > 0 ? jittered(c.edge, 0, c.late_jitter) : c.point);
+      }
+    }
+    return true;
   }
 
   /// Length in world of a component's box.
@@ -79,26 +158,15 @@ class SeedMaker {
 
   double per_voxel(double spacing) const { return voxel_ / (0.9 * spacing); }
 
+  /// How many candidates a crossing gives where the spacing is at most two voxels.
+  int copies_at(double spacing) const {
+    const double squared = per_voxel(spacing) * per_voxel(spacing);
+    return static_cast<int>(std::clamp(std::ceil(squared), 1.0, double(kMostCopies)));
+  }
+
   /// Whether a crossing is a candidate; all are where the component is not much larger than the spacing.
   bool drawn(double draw, double spacing, double extent) const {
     return spacing >= 0.1 * extent || draw <= kCandidatesPerSquare * per_voxel(spacing) * per_voxel(spacing);
-  }
-
-  void add_seeds(const CrossedEdge& edge, const Point3& world, double spacing) {
-    const double squared = per_voxel(spacing) * per_voxel(spacing);
-    const int copies = static_cast<int>(std::clamp(std::ceil(squared), 1.0, double(kMostCopies)));
-    if (spacing > 2 * voxel_) {
-      // Jittered after thinning: few are kept. Moved by more than a small part of their spacing, some would come so
-      // near to each other that angles ask for many more vertices around them.
-      if (thinner_.keep(world, spacing))
-        seeds_.points.push_back(jittered(edge, 0, std::min(0.5, 0.07 * spacing / voxel_)));
-      return;
-    }
-    const double reach = spacing < voxel_ ? 0.5 : 0.25 * spacing / voxel_;
-    for (int copy = 0; copy < copies; ++copy) {
-      const Point3 p = jittered(edge, copy, reach);
-      if (thinner_.keep(to_world_(p), spacing)) seeds_.points.push_back(p);
-    }
   }
 
   /// A crossing on a line parallel to the grid edge, moved sideways by up to `reach` by a hash of the edge; nearer to
@@ -110,24 +178,21 @@ class SeedMaker {
       Point3 low{double(edge.sample[0]), double(edge.sample[1]), double(edge.sample[2])};
       low[(edge.axis + 1) % 3] += reach * (2 * unit_interval(h) - 1);
       low[(edge.axis + 2) % 3] += reach * (2 * unit_interval(mix_hash(h)) - 1);
-      Point3 high = low;
-      high[edge.axis] += 1;
-      if (!field_.contains(low) || !field_.contains(high)) continue;
-      const double value_low = field_.value(low), value_high = field_.value(high);
-      if ((value_low > 0) == (value_high > 0)) continue;
-      return crossing_on_line(low, edge.axis, value_low, value_high);
+      if (!field_.contains(low)) continue;
+      const Index3 cell = field_.cell_of(low);
+      const BrickField::CellSamples samples = field_.cell_samples(cell);
+      if (!samples.mixed_brick) continue;
+      const auto value = [&](int end) {
+        Point3 in_cell{low.x - cell[0], low.y - cell[1], low.z - cell[2]};
+        in_cell[edge.axis] = end;
+        return trilinear(samples.value, in_cell.x, in_cell.y, in_cell.z) - field_.level();
+      };
+      const double at_low = value(0), at_high = value(1);
+      if ((at_low > 0) == (at_high > 0)) continue;
+      low[edge.axis] += at_low / (at_low - at_high);  // along the axes the trilinear function is linear
+      return low;
     }
     return edge.point(field_.level());
-  }
-
-  Point3 crossing_on_line(const Point3& low, int axis, double value_low, double value_high) const {
-    const auto at = [&](double t) {
-      Point3 p = low;
-      p[axis] += t;
-      return p;
-    };
-    const double scale = std::abs(field_.level()) + 1e-30;
-    return at(bracketed_root([&](double t) { return field_.value(at(t)); }, 0, value_low, 1, value_high, scale));
   }
 
   const BrickField& field_;
@@ -135,10 +200,10 @@ class SeedMaker {
   const SizeField& size_;
   const GoOn& go_on_;
   SurfaceComponents found_;
+  std::vector<Index3> bricks_;  // the mixed ones
   PoissonThinner thinner_;
   Vector3 steps_;  // world lengths of the voxel's edges
   double voxel_ = 1, least_spacing_ = 1;
-  bool stopped_ = false;
   Seeds seeds_;
 };
 

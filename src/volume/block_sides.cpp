@@ -53,4 +53,32 @@ BlockSides block_sides(const Volume& volume, const LevelSet& level_set) {
   return result;
 }
 
+Stretches stretches_near_surface(const BlockSides& sides, int j, int k, const std::array<int, 3>& dims) {
+  const auto& n = sides.counts;
+  const auto side_at = [&](int bi, int bj, int bk) {
+    const bool in_image = bi >= 0 && bi < n[0] && bj >= 0 && bj < n[1] && bk >= 0 && bk < n[2];
+    return in_image ? sides.at(bi, bj, bk) : Side::kOutside;
+  };
+  const auto near_surface = [&](int i) {
+    const Side own = sides.at(i, j, k);
+    if (own == Side::kBoth) return true;
+    for (int dk = -1; dk <= 1; ++dk) {
+      for (int dj = -1; dj <= 1; ++dj) {
+        for (int di = -1; di <= 1; ++di) {
+          if (side_at(i + di, j + dj, k + dk) != own) return true;
+        }
+      }
+    }
+    return false;
+  };
+  Stretches result;
+  for (int i = 0; i < n[0]; ++i) {
+    if (!near_surface(i)) continue;
+    const int begin = i * BlockSides::kBlock, end = std::min(begin + BlockSides::kBlock, dims[0]);
+    if (result.empty() || result.back().end != begin) result.push_back({begin, begin});
+    result.back().end = end;
+  }
+  return result;
+}
+
 }  // namespace delvox

@@ -23,4 +23,13 @@ struct BlockSides {
 /// Looks at the samples of those blocks only that are not stored as one value.
 BlockSides block_sides(const Volume& volume, const LevelSet& level_set);
 
+/// Voxels [begin, end) along i.
+struct Stretch {
+  int begin, end;
+};
+using Stretches = std::vector<Stretch>;
+/// The blocks of row (j, k) that have a neighbour, or are, on another side than theirs, those beyond the image being
+/// outside: elsewhere no cell has samples of both signs. Ascending, with voxels between any two.
+Stretches stretches_near_surface(const BlockSides& sides, int j, int k, const std::array<int, 3>& dims);
+
 }  // namespace delvox

@@ -22,16 +22,22 @@ RegionMap::RegionMap(const VolumeHeader& header, const LevelSet& level_set)
   lower_.resize(area);
   upper_.resize(area);
   starts_.resize(ny_);
+  mixed_.resize(ny_ - 1);
   row_begin_.reserve(static_cast<std::size_t>(ny_) * nz_ + 1);
   row_begin_.push_back(0);
 }
 
 void RegionMap::add(const float* samples, int slices) {
+  const int block_rows = (ny_ - 3) / BlockSides::kBlock + 1;
+  add(samples, slices, std::vector<Stretches>(block_rows, {{0, nx_ - 2}}));
+}
+
+void RegionMap::add(const float* samples, int slices, const std::vector<Stretches>& near) {
   const std::size_t area = static_cast<std::size_t>(nx_ - 2) * (ny_ - 2);
-  if (slices_ == 0) add_padded_slice(samples, true);
-  for (int k = 0; k < slices; ++k) add_padded_slice(samples + k * area, false);
+  if (slices_ == 0) add_padded_slice(samples, true, near);
+  for (int k = 0; k < slices; ++k) add_padded_slice(samples + k * area, false, near);
   const float* last = samples + (slices - 1) * area;
-  if (slices_ == nz_ - 1) add_padded_slice(last, true);
+  if (slices_ == nz_ - 1) add_padded_slice(last, true, near);
 }
 
 void RegionMap::finish() {
@@ -39,21 +45,27 @@ void RegionMap::finish() {
   find_parents();
 }
 
-void RegionMap::add_padded_slice(const float* slice, bool in_padding) {
-  tbb::parallel_for(0, ny_, [&](int j) {
-    const int in_image = std::clamp(j - 1, 0, ny_ - 3);
-    float* row = upper_.data() + static_cast<std::size_t>(j) * nx_;
-    pad_row(level_set_, slice + static_cast<std::size_t>(in_image) * (nx_ - 2), nx_ - 2, in_padding || in_image != j - 1,
-            row);
-    std::vector<int>& starts = starts_[j];
-    starts.assign(1, 0);
-    bool sign = false;  // the first sample lies in the padding, outside
-    for (int i = 1; i < nx_; ++i) {
+/// Fills a row of the padded slice in hand where it is near the surface, and finds where its runs start.
+void RegionMap::find_runs(const float* slice, bool in_padding, const std::vector<Stretches>& near, int j) {
+  const int in_image = std::clamp(j - 1, 0, ny_ - 3), n = nx_ - 2;
+  const float* from = slice + static_cast<std::size_t>(in_image) * n;
+  float* row = upper_.data() + static_cast<std::size_t>(j) * nx_;
+  std::vector<int>& starts = starts_[j];
+  starts.assign(1, 0);
+  bool sign = false;  // the first sample lies in the padding, outside
+  for (const Stretch& s : near[in_image / BlockSides::kBlock]) {
+    // Pads at either end of the stretch, which is right at the image's edge and elsewhere falls on what nobody reads.
+    pad_row(level_set_, from + s.begin, s.end - s.begin, in_padding || in_image != j - 1, row + s.begin);
+    for (int i = s.begin + 1; i < (s.end == n ? nx_ : s.end + 1); ++i) {
       if (level_set_.inside(row[i]) == sign) continue;
       sign = !sign;
       starts.push_back(i);
     }
-  });
+  }
+}
+
+void RegionMap::add_padded_slice(const float* slice, bool in_padding, const std::vector<Stretches>& near) {
+  tbb::parallel_for(0, ny_, [&](int j) { find_runs(slice, in_padding, near, j); });
   for (int j = 0; j < ny_; ++j) {
     for (int start : starts_[j]) {
       joined_.push_back(static_cast<std::uint32_t>(joined_.size()));
@@ -65,7 +77,12 @@ void RegionMap::add_padded_slice(const float* slice, bool in_padding) {
     if (slices_ > 0) join_rows(row - ny_, row);
   }
   correction_.resize(joined_.size(), 0.0);
-  for (int j = 0; slices_ > 0 && j + 1 < ny_; ++j) add_cells(j);
+  if (slices_ > 0) {
+    tbb::parallel_for(0, ny_ - 1, [&](int j) { find_mixed_cells(j, mixed_[j]); });
+    for (const std::vector<MixedCell>& cells : mixed_) {
+      for (const MixedCell& cell : cells) add(cell);
+    }
+  }
   lower_.swap(upper_);
   ++slices_;
 }
@@ -86,7 +103,8 @@ void RegionMap::join_rows(std::size_t row_a, std::size_t row_b) {
 
 // Between two starts of runs the signs stay the same along a row of cells: where the four rows agree, all of them can be
 // passed over at once.
-void RegionMap::add_cells(int j) {
+void RegionMap::find_mixed_cells(int j, std::vector<MixedCell>& cells) const {
+  cells.clear();
   const std::size_t row = static_cast<std::size_t>(slices_) * ny_ + j;
   const std::array<std::size_t, 4> rows{row - ny_, row - ny_ + 1, row, row + 1};
   Runs run;
@@ -105,34 +123,41 @@ void RegionMap::add_cells(int j) {
       ++next[r];
       next_column ^= 1u << 2 * r;
     }
-    add_mixed_cell(i, j, run, next, column | next_column << 1);
+    cells.push_back(mixed_cell(i, j, run, next, column | next_column << 1));
     run = next;
     column = next_column;
   }
 }
 
-void RegionMap::add_mixed_cell(int i, int j, const Runs& low_i, const Runs& high_i, unsigned mask) {
+RegionMap::MixedCell RegionMap::mixed_cell(int i, int j, const Runs& low_i, const Runs& high_i, unsigned mask) const {
+  MixedCell cell;
+  cell.mask = static_cast<std::uint8_t>(mask);
   std::array<float, 8> values;
-  std::array<std::uint32_t, 8> runs;
   for (int corner = 0; corner < 8; ++corner) {
     const std::vector<float>& slice = corner & 4 ? upper_ : lower_;
     values[corner] = slice[static_cast<std::size_t>(j + (corner >> 1 & 1)) * nx_ + i + (corner & 1)];
-    runs[corner] = (corner & 1 ? high_i : low_i)[corner >> 1];
+    cell.runs[corner] = (corner & 1 ? high_i : low_i)[corner >> 1];
+    cell.group[corner] = static_cast<std::uint8_t>(corner);
   }
   if (is_ambiguous(mask)) {
-    const CellTopology cell = cell_topology(values, level_set_.level);
-    weight_ += cell.weight(mask);
-    for (int corner = 0; corner < 8; ++corner) {
-      if (cell.group[corner] != corner) join(runs[corner], runs[cell.group[corner]]);
-    }
+    const CellTopology topology = cell_topology(values, level_set_.level);
+    cell.weight = topology.weight(mask);
+    cell.group = topology.group;
   } else {
-    weight_ += weight_of_simple_cell(mask);
+    cell.weight = weight_of_simple_cell(mask);
   }
   // Each sample owns an eighth of the cells around it; what the cell holds beyond that is shared by its samples.
-  const int inside = std::popcount(mask);
-  const double surplus = inside_fraction(values, level_set_.level) - inside / 8.0;
+  cell.surplus = inside_fraction(values, level_set_.level) - std::popcount(mask) / 8.0;
+  return cell;
+}
+
+void RegionMap::add(const MixedCell& cell) {
+  weight_ += cell.weight;
+  const int inside = std::popcount(cell.mask);
   for (int corner = 0; corner < 8; ++corner) {
-    correction_[runs[corner]] += mask >> corner & 1 ? surplus / inside : -surplus / (8 - inside);
+    if (cell.group[corner] != corner) join(cell.runs[corner], cell.runs[cell.group[corner]]);
+    correction_[cell.runs[corner]] +=
+        cell.mask >> corner & 1 ? cell.surplus / inside : -cell.surplus / (8 - inside);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "delvox/volume/voxel_topology.h"
+#include "volume/block_sides.h"
 
 namespace delvox {
 
@@ -15,6 +16,9 @@ class RegionMap {
   RegionMap(const VolumeHeader& header, const LevelSet& level_set);
   /// Adds the next slices of the image, in order.
   void add(const float* samples, int slices);
+  /// The same where the samples of block row n (of BlockSides) are read, and differ in sign from the one before, only
+  /// in the stretches near[n].
+  void add(const float* samples, int slices, const std::vector<Stretches>& near);
   /// After all slices: numbers the regions. Only then may the members below be called.
   void finish();
 
@@ -32,10 +36,20 @@ class RegionMap {
 
  private:
   using Runs = std::array<std::uint32_t, 4>;  // one in each of the four rows around a row of cells
-  void add_padded_slice(const float* slice, bool in_padding);
+  /// What there is to be said of a cell that the surface crosses.
+  struct MixedCell {
+    std::array<std::uint32_t, 8> runs;
+    std::array<std::uint8_t, 8> group;  // of the corners, as in CellTopology
+    std::uint8_t mask;
+    int weight;
+    double surplus;  // of the volume inside, over what the inside corners own
+  };
+  void add_padded_slice(const float* slice, bool in_padding, const std::vector<Stretches>& near);
+  void find_runs(const float* slice, bool in_padding, const std::vector<Stretches>& near, int j);
   void join_rows(std::size_t row_a, std::size_t row_b);
-  void add_cells(int j);
-  void add_mixed_cell(int i, int j, const Runs& low_i, const Runs& high_i, unsigned mask);
+  void find_mixed_cells(int j, std::vector<MixedCell>& cells) const;
+  MixedCell mixed_cell(int i, int j, const Runs& low_i, const Runs& high_i, unsigned mask) const;
+  void add(const MixedCell& cell);
   std::uint32_t root(std::uint32_t run);
   void join(std::uint32_t a, std::uint32_t b);
   void number_regions();
@@ -45,9 +59,9 @@ class RegionMap {
   double voxel_volume_;
   int nx_, ny_, nz_;  // of the padded grid
   int slices_ = 0;    // of it that were added
-  std::vector<float> last_image_slice_;
-  std::vector<float> lower_, upper_;        // the last two slices of the padded grid
-  std::vector<std::vector<int>> starts_;    // of the runs in each row of the slice in hand
+  std::vector<float> lower_, upper_;     // the last two slices of the padded grid
+  std::vector<std::vector<int>> starts_;       // of the runs in each row of the slice in hand
+  std::vector<std::vector<MixedCell>> mixed_;  // in each row of cells below it
   std::vector<std::size_t> row_begin_;   // per row, its first run; one more at the end
   std::vector<std::int32_t> run_start_;
   std::vector<std::uint32_t> joined_;    // union-find, later the region

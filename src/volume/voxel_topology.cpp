@@ -2,6 +2,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
+#include <memory>
+
+#include "core/parallel.h"
+#include "delvox/volume/volume_source.h"
+#include "volume/block_sides.h"
 #include "volume/grid_editor.h"
 #include "volume/region_map.h"
 
@@ -43,9 +49,40 @@ std::vector<bool> regions_to_change(const std::vector<VoxelRegion>& regions, con
   return changed;
 }
 
+/// Copies the stretches of a row of blocks to their places in a slab.
+void copy_stretches(const Volume& volume, const Stretches& stretches, int block_j, int begin_k, int slices,
+                    float* slab) {
+  const std::array<int, 3>& dims = volume.dims();
+  const int begin_j = block_j * BlockSides::kBlock, rows = std::min(BlockSides::kBlock, dims[1] - begin_j);
+  std::vector<float> samples;
+  for (const Stretch& s : stretches) {
+    const int length = s.end - s.begin;
+    samples.resize(static_cast<std::size_t>(length) * rows * slices);
+    volume.copy_block({s.begin, begin_j, begin_k}, {length, rows, slices}, samples.data());
+    for (int n = 0; n < rows * slices; ++n) {
+      const std::size_t row = static_cast<std::size_t>(n / rows) * dims[1] + begin_j + n % rows;
+      std::copy_n(samples.data() + static_cast<std::size_t>(n) * length, length, slab + row * dims[0] + s.begin);
+    }
+  }
+}
+
+/// Reads those blocks only that the surface passes, and their neighbours.
 RegionMap map_regions(const Volume& volume, const LevelSet& level_set) {
+  const std::array<int, 3>& dims = volume.dims();
+  const BlockSides sides = block_sides(volume, level_set);
   RegionMap map(volume.header(), level_set);
-  for_each_slab(*source_of(volume), [&](const float* samples, int, int slices) { map.add(samples, slices); });
+  const auto slab = std::make_unique_for_overwrite<float[]>(static_cast<std::size_t>(dims[0]) * dims[1] *
+                                                            std::min(BlockSides::kBlock, dims[2]));
+  for (int k = 0; k < dims[2]; k += BlockSides::kBlock) {
+    const int slices = std::min(BlockSides::kBlock, dims[2] - k);
+    const auto near = map_chunks(sides.counts[1], 1, [&](std::size_t row, std::size_t) {
+      const int j = static_cast<int>(row);
+      Stretches stretches = stretches_near_surface(sides, j, k / BlockSides::kBlock, dims);
+      copy_stretches(volume, stretches, j, k, slices, slab.get());
+      return stretches;
+    });
+    map.add(slab.get(), slices, near);
+  }
   map.finish();
   return map;
 }

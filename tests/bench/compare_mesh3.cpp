@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <numbers>
@@ -33,7 +34,7 @@ struct Options {
   Mesh3Choices mesh3;
   std::string mesh3_domain = "image", mesh3_seeds = "default";
   std::vector<std::string> only{"ours", "seq", "par", "bulk"};
-  std::string write_prefix;
+  std::string write_prefix, csv;
 };
 
 /// What run_isolated's processes share: the volume after smoothing, and the points of delvox's mesh.
@@ -74,6 +75,7 @@ class Comparison {
       for (std::size_t i = 0; i < contenders.size(); ++i) columns[i].runs.push_back(run_once(contenders[i], size));
     }
     std::cout << scoreboard(columns) << verdict(columns);
+    if (!options_.csv.empty()) append_csv(columns, size);
     return print_notes(columns) ? 0 : 1;
   }
 
@@ -203,6 +205,18 @@ class Comparison {
     std::fflush(stdout);
   }
 
+  /// One file may take many comparisons: what was compared is in every line.
+  void append_csv(const std::vector<Column>& columns, double size) const {
+    const bool is_new = !std::filesystem::exists(options_.csv);
+    std::ofstream out(options_.csv, std::ios::app);
+    if (is_new) out << "volume,iso,smooth,size,threads," << csv_names() << "\n";
+    char numbers[128];
+    std::snprintf(numbers, sizeof(numbers), ",%.9g,%g,%.6g,%d", surface_.isovalue, options_.smooth, size,
+                  options_.threads);
+    out << csv_rows(columns, std::filesystem::path(options_.volume).filename().string() + numbers);
+    if (!out.flush()) throw std::runtime_error(options_.csv + ": cannot be written");
+  }
+
   static bool print_notes(const std::vector<Column>& columns) {
     bool all_ok = true;
     for (const Column& column : columns) {
@@ -245,6 +259,7 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--cgal-error-bound", options.mesh3.error_bound, "Of CGAL's bisection, relative to the bounding box");
   app.add_flag("--cgal-manifold", options.mesh3.manifold, "Ask CGAL for a manifold boundary");
   app.add_option("--write", options.write_prefix, "Write each mesh (of the last run) to PREFIX_contender.vtu");
+  app.add_option("--csv", options.csv, "Append the figures to this file of comma-separated values");
 }
 
 int main_of(int argc, char** argv) {

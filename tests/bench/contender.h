@@ -5,6 +5,7 @@
 
 #include "bench_image.h"
 #include "delvox/core/mesh.h"
+#include "delvox/meshing/deltetsurf.h"
 
 namespace delvox::bench {
 
@@ -34,6 +35,9 @@ struct BenchRun {
   double peak_bytes = 0;  ///< above what the process held before meshing (input image included)
   std::string note;       ///< what the contender has to say of the run; empty: nothing
 };
+
+/// What the program would run with: its defaults beside the criteria.
+DelTetSurfOptions program_options(const Volume& volume, const BenchCriteria& criteria);
 
 /// Read volume once -> isosurface oracle -> deltetsurf -> extracted mesh.
 BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const BenchCriteria& criteria);

@@ -3,22 +3,25 @@
 #include <sstream>
 
 #include "contender.h"
-#include "delvox/meshing/deltetsurf.h"
 #include "delvox/oracle/isosurface_oracle.h"
 
 namespace delvox::bench {
 
-BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const BenchCriteria& criteria) {
+DelTetSurfOptions program_options(const Volume& volume, const BenchCriteria& criteria) {
   const Vector3 spacing = volume.header().spacing();
   DelTetSurfOptions options;
   options.surface.size = criteria.size;
   options.surface.min_angle_degrees = criteria.angle_degrees;
   const double voxel = std::min({spacing.x, spacing.y, spacing.z});
-  options.surface.min_ball_radius = 0.0001 * voxel;  // the program's defaults
+  options.surface.min_ball_radius = 0.0001 * voxel;
   options.surface.thin_ball_radius = 0.25 * voxel;
   options.tets.cell_size = criteria.cell_size;
   options.tets.radius_edge = criteria.radius_edge;
+  return options;
+}
 
+BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const BenchCriteria& criteria) {
+  const DelTetSurfOptions options = program_options(volume, criteria);
   BenchRun run;
   RunReport report;
   const Meter meter;

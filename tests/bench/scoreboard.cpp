@@ -151,6 +151,26 @@ std::string scoreboard(const std::vector<Column>& columns) {
   return table;
 }
 
+std::string csv_names() {
+  return "contender,runs,seconds,least_seconds,most_seconds,cpu_seconds,tets,vertices,all_cells,peak_bytes,"
+         "bad_edges,min_dihedral_degrees";
+}
+
+std::string csv_rows(const std::vector<Column>& columns, const std::string& setting) {
+  std::string rows;
+  for (const Column& column : columns) {
+    if (!succeeded(column)) continue;
+    const std::vector<double> times = sorted_times(column, &Outcome::seconds);
+    const Outcome& run = median_run(column);
+    rows += setting + "," + column.name;
+    rows += text(",%zu,%.4f,%.4f,%.4f,%.4f", times.size(), run.seconds, times.front(), times.back(),
+                 median_time(column, &Outcome::cpu_seconds));
+    rows += text(",%zu,%zu,%zu,%.0f,%zu,%.4f\n", run.mesh.tets, run.mesh.vertices, run.all_cells, run.peak_bytes,
+                 run.mesh.bad_edges, run.mesh.min_dihedral_degrees);
+  }
+  return rows;
+}
+
 std::string verdict(const std::vector<Column>& columns) {
   const Column* ours = find(columns, "delvox");
   const Column* best = nullptr;

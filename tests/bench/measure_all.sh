@@ -1,0 +1,62 @@
+#!/bin/bash
+# Every figure of README's "How fast", by one command: wants an idle machine, the program's benchmarks built
+# (cmake --preset release -DDELVOX_BUILD_BENCHMARKS=ON && cmake --build --preset release), Debian's libcgal-demo, the
+# scans in DELVOX_SCANS (default ../shared/data) and 9 GB of disk, which it gives back.
+#   tests/bench/measure_all.sh [--quick]
+# --quick: liver only, up to 300 k tets, one run each, no stack: to see that all of it works.
+# Leaves build/figures/ (compare_mesh3.csv, all that was printed in log.txt) and draws testdata/gallery/times.svg anew
+# (--quick: build/figures/times.svg).
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+quick=false
+case "${1:-}" in
+  "") ;;
+  --quick) quick=true ;;
+  *) echo "usage: tests/bench/measure_all.sh [--quick]" >&2; exit 2 ;;
+esac
+
+scans=${DELVOX_SCANS:-$PWD/../shared/data}
+bench=$PWD/build/release/tests/bench
+delvox=$PWD/build/release/tools/delvox
+figures=$PWD/build/figures
+rm -rf "$figures"
+mkdir -p "$figures"
+exec > >(tee "$figures/log.txt") 2>&1
+tar -xzf /usr/share/doc/libcgal-dev/data.tar.gz -C "$figures" --strip-components=2 \
+  data/images/liver.inr.gz data/images/skull_2.9.inr
+nproc; grep -m1 'model name' /proc/cpuinfo; cat /proc/loadavg
+
+liver="$figures/liver.inr.gz --iso 64 --smooth 0.8"
+skull="$figures/skull_2.9.inr --iso 2.9"
+brain="$scans/spm152.nii.gz --iso 40"
+iguana="$scans/Iguana.nii.gz --iso 119.3"
+repeat=$($quick && echo 1 || echo 3)
+
+# compare INPUT SIZE: all contenders on one thread, then ours on two.
+compare() {
+  local common="$1 --size $2 --repeat $repeat --csv $figures/compare_mesh3.csv"
+  "$bench/compare_mesh3" $common
+  "$bench/compare_mesh3" $common --only ours --threads 2
+}
+
+for size in 10.2 5.45 2.953; do compare "$liver" $size; done
+if ! $quick; then
+  for size in 1.965 0.998; do compare "$liver" $size; done
+  for size in 2.638 1.764; do compare "$skull" $size; done
+  for size in 2.924 1.919; do compare "$brain" $size; done
+  compare "$iguana" 0.12
+  for size in 2.238 1.403; do compare "$scans/CT_pitch.nii.gz --iso 127.3" $size; done
+  for size in 0.9335 0.6227; do compare "$scans/CT_AVM.nii.gz --iso 180" $size; done
+  for run in "$liver --size 1.965" "$skull --size 1.764" "$brain --size 1.919" "$iguana --size 0.12"; do
+    "$bench/memory_bench" $run
+    "$bench/delaunay_bench" $run --repeat $repeat
+  done
+  for input in "$liver" "$brain" "$iguana"; do "$bench/oracle_bench" $input; done
+  stack=$(mktemp -d "$figures/stack.XXXXXX")
+  trap 'rm -rf "$stack"' EXIT
+  "$delvox" phantom sphere --dims 2048,2048,1024 --type uint16 -o "$stack/stack.tif" --quiet
+  "$bench/streaming_bench" "$stack/stack.tif" --iso 32767.5
+fi
+plot=$($quick && echo "$figures/times.svg" || echo testdata/gallery/times.svg)
+tests/bench/plot_times.py "$figures/compare_mesh3.csv" liver.inr.gz "$plot"
+echo "figures in $figures, plot in $plot"
