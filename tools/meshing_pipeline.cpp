@@ -49,7 +49,10 @@ class MeshingRun {
   void run(Json report) {
     check_mesh_outputs(options_.output.paths, options_.volume.path);
     check_output(options_.report, options_.volume.path);
-    parse_sets(options_.output.sets, nullptr, true);
+    std::vector<std::string> set_names;
+    for (const NamedRule& rule : parse_sets(options_.output.sets, nullptr, true)) set_names.push_back(rule.name);
+    analysis_ = read_analysis(options_.output);
+    analysis_.check_sets(set_names, options_.output.deck);
     if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
     domain_->read(watch_, console_);
     decide();
@@ -97,6 +100,7 @@ class MeshingRun {
   RunReport run_report_;
   std::optional<SliverReport> sliver_report_;
   CheckReport check_report_;
+  Analysis analysis_;
   std::string set_fault_;
   std::string verdict_;
 };
@@ -235,10 +239,11 @@ void MeshingRun::curve(const Oracle& oracle) {
   tell(report.not_found, report.where_not_found, "left straight, no surface near their middle");
 }
 
-// --set: places by name, in the output frame.
+// --set: places by name, in the output frame; and what the body is made of.
 void MeshingRun::name_sets() {
   auto* tets = std::get_if<TetMesh>(&mesh_);
-  if (tets == nullptr || options_.output.sets.empty()) return;
+  if (tets == nullptr) return;
+  analysis_.apply_material(*tets);
   std::optional<MeshedImage> image;
   if (const auto header = domain_->image()) image = MeshedImage{*header, domain_->frame()};
   set_fault_ = apply_sets(*tets, parse_sets(options_.output.sets, image ? &*image : nullptr));
@@ -303,7 +308,7 @@ void MeshingRun::check() {
 }
 
 void MeshingRun::write() {
-  watch_.timed("writing", [&] { write_mesh_outputs(mesh_, options_.output.paths, console_); });
+  watch_.timed("writing", [&] { write_mesh_outputs(mesh_, options_.output.paths, console_, analysis_.deck); });
 }
 
 Json MeshingRun::report() const {
