@@ -52,6 +52,8 @@ class MeshingRun {
     std::vector<std::string> set_names;
     for (const NamedRule& rule : parse_sets(options_.output.sets, nullptr, true)) set_names.push_back(rule.name);
     analysis_ = read_analysis(options_.output);
+    image_materials_ = parse_image_materials(options_.image_materials);
+    if (image_materials_ && analysis_.material) throw OptionError("two materials: one from the image, one by name");
     analysis_.check_sets(set_names, options_.output.deck);
     if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
     domain_->read(watch_, console_);
@@ -68,6 +70,7 @@ class MeshingRun {
   void mesh();
   void search_size();
   void curve(const Oracle& oracle);
+  void map_materials();
   void name_sets();
   void mesh_at(const SizeField& size);
   ProcessForecast forecast_at(const Oracle& oracle, double factor) const;
@@ -101,6 +104,8 @@ class MeshingRun {
   std::optional<SliverReport> sliver_report_;
   CheckReport check_report_;
   Analysis analysis_;
+  std::optional<ImageMaterialOptions> image_materials_;
+  std::optional<ImageMaterialReport> material_report_;
   std::string set_fault_;
   std::string verdict_;
 };
@@ -239,6 +244,26 @@ void MeshingRun::curve(const Oracle& oracle) {
   tell(report.not_found, report.where_not_found, "left straight, no surface near their middle");
 }
 
+// --hu-density: what the tets are made of, from the samples.
+void MeshingRun::map_materials() {
+  if (!image_materials_) return;
+  const std::optional<Volume> samples =
+      watch_.timed("reading", [&] { return domain_->samples(options_.image_materials.peel); });
+  if (!samples) throw OptionError("--hu-density: the input has no samples");
+  auto& tets = std::get<TetMesh>(mesh_);
+  material_report_ =
+      watch_.timed("materials", [&] { return assign_image_materials(tets, *samples, *image_materials_); });
+  std::string text = plural(tets.materials.size(), "material") + ", modulus " + number(material_report_->least_mpa) +
+                     " to " + number(material_report_->greatest_mpa) + " MPa, mean " +
+                     number(material_report_->mean_mpa) + "; " + image_materials_->law.name + " (" +
+                     image_materials_->law.density + " density)";
+  if (material_report_->thin_share > 0) {
+    text += "; density below 0.01 g/cm3, taken for it, in " + number(100 * material_report_->thin_share, 2) +
+            " % of the volume";
+  }
+  console_.note(text);
+}
+
 // --set: places by name, in the output frame; and what the body is made of.
 void MeshingRun::name_sets() {
   auto* tets = std::get_if<TetMesh>(&mesh_);
@@ -286,6 +311,7 @@ void MeshingRun::mesh() {
   }
   if (const std::string text = domain_->left_out(); !text.empty()) console_.note(text);
   domain_->finish(mesh_);
+  map_materials();
   const FrameChange frame = domain_->frame();
   frame.apply(mesh_);
   frame.apply(run_report_);
@@ -319,6 +345,7 @@ Json MeshingRun::report() const {
                {"peak_bytes", process_memory().peak},
                {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
                {"sets", sets_json(mesh_)},
+               {"materials", materials_json(mesh_)},
                {"run", to_json(run_report_)},
                {"slivers", sliver_report_ ? to_json(*sliver_report_) : Json()},
                {"check", to_json(check_report_)},

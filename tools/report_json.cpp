@@ -209,6 +209,20 @@ Json to_json(const std::vector<StageTime>& stages) {
   return json;
 }
 
+Json materials_json(const Mesh& mesh) {
+  Json json = Json::array();
+  if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
+    for (const Material& material : tets->materials) {
+      json.push_back({{"name", material.name},
+                      {"region", material.region},
+                      {"youngs_modulus_mpa", material.youngs_modulus_mpa},
+                      {"poisson_ratio", material.poisson_ratio},
+                      {"density_kg_m3", material.density_kg_m3}});
+    }
+  }
+  return json;
+}
+
 Json sets_json(const Mesh& mesh) {
   Json json = Json::array();
   if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
