@@ -57,6 +57,7 @@ class MeshingRun {
     analysis_.check_sets(set_names, options_.output.deck);
     if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
     domain_->read(watch_, console_);
+    check_image();
     decide();
     mesh();
     check();
@@ -70,6 +71,8 @@ class MeshingRun {
   void mesh();
   void search_size();
   void curve(const Oracle& oracle);
+  void check_image() const;
+  std::optional<MeshedImage> image() const;
   void map_materials();
   void name_sets();
   void mesh_at(const SizeField& size);
@@ -244,12 +247,23 @@ void MeshingRun::curve(const Oracle& oracle) {
   tell(report.not_found, report.where_not_found, "left straight, no surface near their middle");
 }
 
+std::optional<MeshedImage> MeshingRun::image() const {
+  if (const auto header = domain_->image()) return MeshedImage{*header, domain_->frame()};
+  return std::nullopt;
+}
+
+// Refuses, before meshing, what only an image has.
+void MeshingRun::check_image() const {
+  const std::optional<MeshedImage> there = image();
+  parse_sets(options_.output.sets, there ? &*there : nullptr);
+  if (image_materials_ && !there) throw OptionError("--hu-density takes the samples of a volume; there is none");
+}
+
 // --hu-density: what the tets are made of, from the samples.
 void MeshingRun::map_materials() {
   if (!image_materials_) return;
   const std::optional<Volume> samples =
       watch_.timed("reading", [&] { return domain_->samples(options_.image_materials.peel); });
-  if (!samples) throw OptionError("--hu-density: the input has no samples");
   auto& tets = std::get<TetMesh>(mesh_);
   material_report_ =
       watch_.timed("materials", [&] { return assign_image_materials(tets, *samples, *image_materials_); });
@@ -269,9 +283,12 @@ void MeshingRun::name_sets() {
   auto* tets = std::get_if<TetMesh>(&mesh_);
   if (tets == nullptr) return;
   analysis_.apply_material(*tets);
-  std::optional<MeshedImage> image;
-  if (const auto header = domain_->image()) image = MeshedImage{*header, domain_->frame()};
-  set_fault_ = apply_sets(*tets, parse_sets(options_.output.sets, image ? &*image : nullptr));
+  const std::optional<MeshedImage> frame_and_header = image();
+  set_fault_ = apply_sets(*tets, parse_sets(options_.output.sets, frame_and_header ? &*frame_and_header : nullptr));
+  if (!set_fault_.empty() && analysis_.deck) {
+    set_fault_ += "; the deck is left out";
+    analysis_.deck.reset();
+  }
   for (const MeshSet& set : tets->sets) {
     console_.note("set " + set.name + ": " + plural(set.nodes.size(), "node") + ", " + plural(set.tets.size(), "tet") +
                   ", " + plural(set.faces.size(), "boundary face"));

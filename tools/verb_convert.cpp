@@ -28,7 +28,7 @@ void run_convert(const Verb& verb, const Arguments& arguments) {
 
   check_mesh_outputs(output.paths, path);
   const std::vector<NamedRule> rules = parse_sets(output.sets, nullptr);
-  const Analysis analysis = read_analysis(output);
+  Analysis analysis = read_analysis(output);
   const Console console(console_options);
   MeshFile file = read_mesh(path);
   console.note(path + ": " + file.format + ", " + describe_counts(file.mesh));
@@ -42,6 +42,10 @@ void run_convert(const Verb& verb, const Arguments& arguments) {
     for (const MeshSet& set : tets->sets) names.push_back(set.name);
     analysis.check_sets(names, path);
     analysis.apply_material(*tets);
+    if (!fault.empty() && analysis.deck) {
+      fault += "; the deck is left out";
+      analysis.deck.reset();
+    }
   } else if (!rules.empty() || output.order != 0 || analysis.deck || analysis.material) {
     throw OptionError(path + ": holds no tets; --set, --order, --deck and --material are for tets");
   }
