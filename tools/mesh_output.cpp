@@ -1,8 +1,13 @@
 #include "mesh_output.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
 
 #include "core/output_file.h"
+#include "deck_json.h"
 #include "delvox/core/errors.h"
 #include "delvox/mesh_io/write_mesh.h"
 #include "format.h"
@@ -19,6 +24,26 @@ bool same_place(const fs::path& a, const fs::path& b) {
   std::error_code error;
   if (fs::equivalent(a, b, error)) return true;
   return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+bool is_inp(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return extension == ".inp";
+}
+
+void add_material_options(CLI::App& app, MeshOutputOptions& options) {
+  app.add_option("--deck", options.deck,
+                 "Write .inp outputs as a linear static analysis that ccx and Abaqus run: supports, pressures, gravity "
+                 "and displacements on sets, from a JSON file")
+      ->type_name("FILE.json");
+  auto* materials = app.add_option("--materials", options.materials,
+                                   "Materials by name: {\"bone\": {\"youngs_modulus_mpa\": .., \"poisson_ratio\": .., "
+                                   "\"density_kg_m3\": ..}, ...}");
+  materials->type_name("FILE.json");
+  app.add_option("--material", options.material, "Which of these the body is made of")
+      ->needs(materials)
+      ->type_name("NAME");
 }
 
 }  // namespace
@@ -45,6 +70,7 @@ void add_tet_output_options(CLI::App& app, MeshOutputOptions& options) {
   app.add_option("--order", options.order, "Order of the tets: 1, or 2 for mid-side nodes (default: 1, or as read)")
       ->check(CLI::IsMember({1, 2}))
       ->type_name("N");
+  add_material_options(app, options);
 }
 
 void apply_unit(const std::string& unit, Mesh& mesh) {
@@ -71,10 +97,57 @@ void check_mesh_outputs(const std::vector<std::string>& paths, const fs::path& i
   }
 }
 
-void write_mesh_outputs(const Mesh& mesh, const std::vector<std::string>& paths, const Console& console) {
+void Analysis::check_sets(const std::vector<std::string>& names, const std::string& where) const {
+  if (!deck) return;
+  for (const std::string& wanted : sets_of(*deck)) {
+    if (std::find(names.begin(), names.end(), wanted) == names.end()) {
+      throw OptionError(where + ": the deck names the set " + wanted + ", which there is not; name it by --set");
+    }
+  }
+}
+
+void Analysis::apply_material(TetMesh& mesh) const {
+  if (!material) return;
+  std::set<Label> regions(mesh.regions.begin(), mesh.regions.end());
+  if (mesh.regions.empty()) regions.insert(1);
+  for (const Material& known : mesh.materials) regions.erase(known.region);
+  for (Label region : regions) {
+    mesh.materials.push_back(*material);
+    mesh.materials.back().region = region;
+    if (regions.size() > 1) mesh.materials.back().name += "_" + std::to_string(region);
+  }
+}
+
+Analysis read_analysis(const MeshOutputOptions& options) {
+  std::map<std::string, Material> known;
+  if (!options.materials.empty()) known = read_materials(options.materials);
+  Analysis analysis;
+  if (!options.material.empty()) {
+    const auto found = known.find(options.material);
+    if (found == known.end()) throw OptionError(options.materials + ": has no material " + options.material);
+    analysis.material = found->second;
+  }
+  if (options.deck.empty()) return analysis;
+  DeckFile file = read_deck(options.deck, known);
+  analysis.deck = std::move(file.deck);
+  if (!file.material.empty()) {
+    if (analysis.material) throw OptionError(options.deck + ": states a material, and --material another");
+    analysis.material = file.material[0];
+  }
+  const bool any_inp = std::any_of(options.paths.begin(), options.paths.end(), is_inp);
+  if (!any_inp) throw OptionError("--deck is written to .inp files; give one as output");
+  return analysis;
+}
+
+void write_mesh_outputs(const Mesh& mesh, const std::vector<std::string>& paths, const Console& console,
+                        const std::optional<StaticDeck>& deck) {
   for (const std::string& path : paths) {
     throw_if_cancelled();
-    write_mesh(mesh, path);
+    if (deck && is_inp(path)) {
+      write_deck(std::get<TetMesh>(mesh), *deck, path);
+    } else {
+      write_mesh(mesh, path);
+    }
     console.note("wrote " + path);
   }
 }

@@ -29,6 +29,11 @@ class MeshingDomain {
   virtual Frame own_frame() const = 0;
   /// The image that the domain is cut off by, if there is one: for sets on its border.
   virtual std::optional<VolumeHeader> image() const { return std::nullopt; }
+  /// All samples of the image, in the input's frame, `layers` voxels at the surface replaced by what lies further in.
+  virtual std::optional<Volume> samples(int layers) const {
+    (void)layers;
+    return std::nullopt;
+  }
   /// A size for a run that was given none, mm, and where it comes from.
   virtual double default_size() const = 0;
   virtual std::string origin_of_default_size() const = 0;

@@ -95,6 +95,7 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   add_mesh_output_options(app, options.output);
   if (options.kind == MeshKind::kTets) {
     add_tet_output_options(app, options.output);
+    add_image_material_options(app, options.image_materials);
   } else {
     add_unit_option(app, options.output.unit);
   }

@@ -6,6 +6,7 @@
 
 #include "console.h"
 #include "delvox/core/run.h"
+#include "image_material_flags.h"
 #include "mesh_output.h"
 #include "verbs.h"
 #include "volume_input.h"
@@ -36,6 +37,7 @@ struct MeshingOptions {
   RunLimits limits;
   std::string max_memory;                ///< refuse to begin if more is forecast: "4G"; empty: no limit
   MeshOutputOptions output;
+  ImageMaterialFlags image_materials;
   std::string report;                    ///< path; empty: none
   ConsoleOptions console;
 };

@@ -49,9 +49,15 @@ class MeshingRun {
   void run(Json report) {
     check_mesh_outputs(options_.output.paths, options_.volume.path);
     check_output(options_.report, options_.volume.path);
-    parse_sets(options_.output.sets, nullptr, true);
+    std::vector<std::string> set_names;
+    for (const NamedRule& rule : parse_sets(options_.output.sets, nullptr, true)) set_names.push_back(rule.name);
+    analysis_ = read_analysis(options_.output);
+    image_materials_ = parse_image_materials(options_.image_materials);
+    if (image_materials_ && analysis_.material) throw OptionError("two materials: one from the image, one by name");
+    analysis_.check_sets(set_names, options_.output.deck);
     if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
     domain_->read(watch_, console_);
+    check_image();
     decide();
     mesh();
     check();
@@ -65,6 +71,9 @@ class MeshingRun {
   void mesh();
   void search_size();
   void curve(const Oracle& oracle);
+  void check_image() const;
+  std::optional<MeshedImage> image() const;
+  void map_materials();
   void name_sets();
   void mesh_at(const SizeField& size);
   ProcessForecast forecast_at(const Oracle& oracle, double factor) const;
@@ -97,6 +106,9 @@ class MeshingRun {
   RunReport run_report_;
   std::optional<SliverReport> sliver_report_;
   CheckReport check_report_;
+  Analysis analysis_;
+  std::optional<ImageMaterialOptions> image_materials_;
+  std::optional<ImageMaterialReport> material_report_;
   std::string set_fault_;
   std::string verdict_;
 };
@@ -235,13 +247,48 @@ void MeshingRun::curve(const Oracle& oracle) {
   tell(report.not_found, report.where_not_found, "left straight, no surface near their middle");
 }
 
-// --set: places by name, in the output frame.
+std::optional<MeshedImage> MeshingRun::image() const {
+  if (const auto header = domain_->image()) return MeshedImage{*header, domain_->frame()};
+  return std::nullopt;
+}
+
+// Refuses, before meshing, what only an image has.
+void MeshingRun::check_image() const {
+  const std::optional<MeshedImage> there = image();
+  parse_sets(options_.output.sets, there ? &*there : nullptr);
+  if (image_materials_ && !there) throw OptionError("--hu-density takes the samples of a volume; there is none");
+}
+
+// --hu-density: what the tets are made of, from the samples.
+void MeshingRun::map_materials() {
+  if (!image_materials_) return;
+  const std::optional<Volume> samples =
+      watch_.timed("reading", [&] { return domain_->samples(options_.image_materials.peel); });
+  auto& tets = std::get<TetMesh>(mesh_);
+  material_report_ =
+      watch_.timed("materials", [&] { return assign_image_materials(tets, *samples, *image_materials_); });
+  std::string text = plural(tets.materials.size(), "material") + ", modulus " + number(material_report_->least_mpa) +
+                     " to " + number(material_report_->greatest_mpa) + " MPa, mean " +
+                     number(material_report_->mean_mpa) + "; " + image_materials_->law.name + " (" +
+                     image_materials_->law.density + " density)";
+  if (material_report_->thin_share > 0) {
+    text += "; density below 0.01 g/cm3, taken for it, in " + number(100 * material_report_->thin_share, 2) +
+            " % of the volume";
+  }
+  console_.note(text);
+}
+
+// --set: places by name, in the output frame; and what the body is made of.
 void MeshingRun::name_sets() {
   auto* tets = std::get_if<TetMesh>(&mesh_);
-  if (tets == nullptr || options_.output.sets.empty()) return;
-  std::optional<MeshedImage> image;
-  if (const auto header = domain_->image()) image = MeshedImage{*header, domain_->frame()};
-  set_fault_ = apply_sets(*tets, parse_sets(options_.output.sets, image ? &*image : nullptr));
+  if (tets == nullptr) return;
+  analysis_.apply_material(*tets);
+  const std::optional<MeshedImage> frame_and_header = image();
+  set_fault_ = apply_sets(*tets, parse_sets(options_.output.sets, frame_and_header ? &*frame_and_header : nullptr));
+  if (!set_fault_.empty() && analysis_.deck) {
+    set_fault_ += "; the deck is left out";
+    analysis_.deck.reset();
+  }
   for (const MeshSet& set : tets->sets) {
     console_.note("set " + set.name + ": " + plural(set.nodes.size(), "node") + ", " + plural(set.tets.size(), "tet") +
                   ", " + plural(set.faces.size(), "boundary face"));
@@ -281,6 +328,7 @@ void MeshingRun::mesh() {
   }
   if (const std::string text = domain_->left_out(); !text.empty()) console_.note(text);
   domain_->finish(mesh_);
+  map_materials();
   const FrameChange frame = domain_->frame();
   frame.apply(mesh_);
   frame.apply(run_report_);
@@ -303,7 +351,7 @@ void MeshingRun::check() {
 }
 
 void MeshingRun::write() {
-  watch_.timed("writing", [&] { write_mesh_outputs(mesh_, options_.output.paths, console_); });
+  watch_.timed("writing", [&] { write_mesh_outputs(mesh_, options_.output.paths, console_, analysis_.deck); });
 }
 
 Json MeshingRun::report() const {
@@ -314,6 +362,7 @@ Json MeshingRun::report() const {
                {"peak_bytes", process_memory().peak},
                {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
                {"sets", sets_json(mesh_)},
+               {"materials", materials_json(mesh_)},
                {"run", to_json(run_report_)},
                {"slivers", sliver_report_ ? to_json(*sliver_report_) : Json()},
                {"check", to_json(check_report_)},

@@ -65,6 +65,16 @@ Json to_json(const ComponentStatistics& c) {
           {"volume_mm3", c.volume_mm3}, {"area_mm2", c.area_mm2}};
 }
 
+Json to_json(const SolverLimit& l) {
+  return {{"solver", l.solver},
+          {"measure", l.measure},
+          {"severity", l.severity},
+          {l.at_least ? "at_least" : "at_most", l.limit},
+          {"tets", l.count},
+          {"worst", l.worst},
+          {"where", tools::to_json(l.where)}};
+}
+
 Json to_json(const MeshStatistics& s) {
   Json json{{"points", s.points},
             {"tets", s.tets},
@@ -81,6 +91,10 @@ Json to_json(const MeshStatistics& s) {
   if (s.dihedral_degrees.count > 0) json["dihedral_degrees"] = to_json(s.dihedral_degrees);
   if (s.radius_edge.count > 0) json["radius_edge"] = to_json(s.radius_edge);
   if (s.edge_mm.count > 0) json["edge_mm"] = to_json(s.edge_mm);
+  if (s.face_angle_degrees.count > 0) json["face_angle_degrees"] = to_json(s.face_angle_degrees);
+  if (s.aspect_ratio.count > 0) json["aspect_ratio"] = to_json(s.aspect_ratio);
+  if (s.shape_factor.count > 0) json["shape_factor"] = to_json(s.shape_factor);
+  if (s.jacobian_ratio.count > 0) json["jacobian_ratio"] = to_json(s.jacobian_ratio);
   return json;
 }
 
@@ -200,12 +214,30 @@ Json to_json(const CheckReport& report) {
   for (const Check& check : report.checks) checks.push_back(to_json(check));
   Json json{{"all_hold", report.all_hold()}, {"checks", std::move(checks)}, {"statistics", to_json(report.statistics)}};
   if (report.comparison) json["comparison"] = to_json(*report.comparison);
+  if (!report.solver_limits.empty()) {
+    json["solver_limits"] = Json::array();
+    for (const SolverLimit& limit : report.solver_limits) json["solver_limits"].push_back(to_json(limit));
+  }
   return json;
 }
 
 Json to_json(const std::vector<StageTime>& stages) {
   Json json = Json::array();
   for (const StageTime& stage : stages) json.push_back({{"stage", stage.stage}, {"seconds", stage.seconds}});
+  return json;
+}
+
+Json materials_json(const Mesh& mesh) {
+  Json json = Json::array();
+  if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
+    for (const Material& material : tets->materials) {
+      json.push_back({{"name", material.name},
+                      {"region", material.region},
+                      {"youngs_modulus_mpa", material.youngs_modulus_mpa},
+                      {"poisson_ratio", material.poisson_ratio},
+                      {"density_kg_m3", material.density_kg_m3}});
+    }
+  }
   return json;
 }
 

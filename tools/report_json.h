@@ -31,6 +31,8 @@ Json to_json(const SliverReport& report);
 Json to_json(const CheckReport& report);
 Json to_json(const std::vector<StageTime>& stages);
 
+/// The materials of a mesh.
+Json materials_json(const Mesh& mesh);
 /// Name and extent of each set of a mesh.
 Json sets_json(const Mesh& mesh);
 

@@ -28,6 +28,7 @@ void run_convert(const Verb& verb, const Arguments& arguments) {
 
   check_mesh_outputs(output.paths, path);
   const std::vector<NamedRule> rules = parse_sets(output.sets, nullptr);
+  Analysis analysis = read_analysis(output);
   const Console console(console_options);
   MeshFile file = read_mesh(path);
   console.note(path + ": " + file.format + ", " + describe_counts(file.mesh));
@@ -37,10 +38,18 @@ void run_convert(const Verb& verb, const Arguments& arguments) {
     if (output.order == 1 && !tets->mid_nodes.empty()) make_first_order(*tets);
     if (output.order == 2 && tets->mid_nodes.empty()) make_second_order(*tets, nullptr);
     fault = apply_sets(*tets, rules);
-  } else if (!rules.empty() || output.order != 0) {
-    throw OptionError(path + ": holds no tets; --set and --order are for tets");
+    std::vector<std::string> names;
+    for (const MeshSet& set : tets->sets) names.push_back(set.name);
+    analysis.check_sets(names, path);
+    analysis.apply_material(*tets);
+    if (!fault.empty() && analysis.deck) {
+      fault += "; the deck is left out";
+      analysis.deck.reset();
+    }
+  } else if (!rules.empty() || output.order != 0 || analysis.deck || analysis.material) {
+    throw OptionError(path + ": holds no tets; --set, --order, --deck and --material are for tets");
   }
-  write_mesh_outputs(file.mesh, output.paths, console);
+  write_mesh_outputs(file.mesh, output.paths, console, analysis.deck);
   if (!fault.empty()) throw PromiseBroken(output.paths.front() + ": written, but " + fault);
 }
 

@@ -2,6 +2,7 @@
 
 #include "delvox/core/errors.h"
 #include "delvox/oracle/isosurface_oracle.h"
+#include "delvox/volume/peel.h"
 #include "format.h"
 #include "meshing_domain.h"
 #include "open_border.h"
@@ -47,6 +48,10 @@ class VolumeDomain final : public MeshingDomain {
   FrameChange frame() const override { return frame_; }
   Frame own_frame() const override { return volume_->header().frame; }
   std::optional<VolumeHeader> image() const override { return volume_->header(); }
+  std::optional<Volume> samples(int layers) const override {
+    const Volume whole = load(*open_input(options_.volume, options_.frame).source);
+    return layers > 0 ? peeled(whole, chosen_.surface, layers) : whole;
+  }
   double default_size() const override { return tools::default_size(*volume_, chosen_.surface); }
   std::string origin_of_default_size() const override { return "from the organ's extent and the voxels"; }
   double guess_size(std::size_t tets) const override { return tools::guess_size(tets, *volume_, chosen_.surface); }

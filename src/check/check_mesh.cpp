@@ -9,6 +9,7 @@
 #include "check/point_checks.h"
 #include "check/report_builder.h"
 #include "check/second_order_checks.h"
+#include "check/solver_limits.h"
 #include "check/surface_topology.h"
 #include "check/tet_topology.h"
 #include "check/voxel_checks.h"
@@ -77,6 +78,7 @@ class MeshChecker {
     if (options_.level == CheckLevel::kFull) {
       builder_.count("no crossing triangles", check::crossing_triangles(points_, triangles_));
       check_voxels();
+      if (tets_ != nullptr) measure_for_solvers();
     }
     return std::move(report_);
   }
@@ -141,6 +143,16 @@ class MeshChecker {
     if (!tets_->mid_nodes.empty()) check_second_order();
     report_.statistics.tets = tets_->tets.size();
     report_.statistics.tet_components = tet_topology_.components;
+  }
+
+  void measure_for_solvers() {
+    check::SolverMeasures measures = check::measure_for_solvers(*tets_);
+    report_.solver_limits = std::move(measures.limits);
+    MeshStatistics& statistics = report_.statistics;
+    statistics.face_angle_degrees = std::move(measures.face_angles);
+    statistics.aspect_ratio = std::move(measures.aspect_ratios);
+    statistics.shape_factor = std::move(measures.shape_factors);
+    statistics.jacobian_ratio = std::move(measures.jacobian_ratios);
   }
 
   void check_second_order() {

@@ -59,8 +59,21 @@ std::string text_of(const MeshStatistics& s) {
   text += s.tets > 0 ? format(", tet components %zu\n", s.tet_components) : "\n";
   text += format("volume %.9g mm3, surface area %.9g mm2\n", s.volume_mm3, s.area_mm2);
   text += line_of("angle/deg", s.angle_degrees) + line_of("dihedral/deg", s.dihedral_degrees) +
-          line_of("radius-edge", s.radius_edge) + line_of("edge/mm", s.edge_mm);
+          line_of("radius-edge", s.radius_edge) + line_of("edge/mm", s.edge_mm) +
+          line_of("face angle", s.face_angle_degrees) + line_of("aspect", s.aspect_ratio) +
+          line_of("shape factor", s.shape_factor) + line_of("Jacobian", s.jacobian_ratio);
   return text;
+}
+
+std::string text_of(const std::vector<SolverLimit>& limits) {
+  std::string text;
+  for (const SolverLimit& limit : limits) {
+    if (limit.count == 0) continue;
+    text += format("  %s %s: %s %s %.6g for %zu tets, worst %.6g at %.6g %.6g %.6g\n", limit.solver.c_str(),
+                   limit.severity.c_str(), limit.measure.c_str(), limit.at_least ? "below" : "above", limit.limit,
+                   limit.count, limit.worst, limit.where.x, limit.where.y, limit.where.z);
+  }
+  return text.empty() ? "what solvers limit (Abaqus, ANSYS): within all limits\n" : "what solvers object to:\n" + text;
 }
 
 std::string text_of(const VoxelComparison& c) {
@@ -81,6 +94,7 @@ std::string to_text(const CheckReport& report) {
   std::string text;
   for (const Check& check : report.checks) text += line_of(check, width);
   text += text_of(report.statistics);
+  if (!report.solver_limits.empty()) text += text_of(report.solver_limits);
   if (report.comparison) text += text_of(*report.comparison);
   return text + (report.all_hold() ? "every check holds\n" : "NOT every check holds\n");
 }

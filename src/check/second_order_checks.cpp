@@ -49,37 +49,15 @@ std::vector<Sample> samples() {
   return result;
 }
 
-Extreme worst_jacobian(const TetMesh& mesh) {
-  const std::vector<Sample> at = samples();
-  const auto parts = map_chunks(mesh.tets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    Extreme part;
-    for (std::size_t t = begin; t < end; ++t) {
-      std::array<Point3, 10> nodes;
-      for (std::size_t i = 0; i < 4; ++i) nodes[i] = mesh.points[mesh.tets[t][i]];
-      for (std::size_t e = 0; e < 6; ++e) nodes[4 + e] = mesh.points[mesh.mid_nodes[t][e]];
-      double least = std::numeric_limits<double>::infinity(), greatest = -least;
-      for (const Sample& sample : at) {
-        Vector3 column[3];
-        for (int axis = 0; axis < 3; ++axis) {
-          for (std::size_t i = 0; i < 10; ++i) column[axis] = column[axis] + sample.d[axis][i] * nodes[i];
-        }
-        const double determinant = dot(cross(column[0], column[1]), column[2]);
-        least = std::min(least, determinant);
-        greatest = std::max(greatest, determinant);
-      }
-      const double ratio = greatest > 0 ? least / greatest : -1;
-      if (!part.any || ratio < part.value) part = {ratio, true, nodes[0], part.violations};
-      if (!(least > 0)) ++part.violations;
+Extreme worst_jacobian(const TetMesh& mesh, const std::vector<double>& ratios) {
+  Extreme worst;
+  for (std::size_t t = 0; t < ratios.size(); ++t) {
+    if (!worst.any || ratios[t] < worst.value) {
+      worst = {ratios[t], true, mesh.points[mesh.tets[t][0]], worst.violations};
     }
-    return part;
-  });
-  Extreme all;
-  for (const Extreme& part : parts) {
-    const std::size_t violations = all.violations + part.violations;
-    if (!all.any || (part.any && part.value < all.value)) all = part;
-    all.violations = violations;
+    if (!(ratios[t] > 0)) ++worst.violations;
   }
-  return all;
+  return worst;
 }
 
 struct EdgeNode {
@@ -112,9 +90,33 @@ std::vector<EdgeNode> edge_nodes(const TetMesh& mesh) {
 
 }  // namespace
 
+std::vector<double> jacobian_ratios(const TetMesh& mesh) {
+  const std::vector<Sample> at = samples();
+  std::vector<double> ratios(mesh.tets.size());
+  for_each_chunk(mesh.tets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      std::array<Point3, 10> nodes;
+      for (std::size_t i = 0; i < 4; ++i) nodes[i] = mesh.points[mesh.tets[t][i]];
+      for (std::size_t e = 0; e < 6; ++e) nodes[4 + e] = mesh.points[mesh.mid_nodes[t][e]];
+      double least = std::numeric_limits<double>::infinity(), greatest = -least;
+      for (const Sample& sample : at) {
+        Vector3 column[3];
+        for (int axis = 0; axis < 3; ++axis) {
+          for (std::size_t i = 0; i < 10; ++i) column[axis] = column[axis] + sample.d[axis][i] * nodes[i];
+        }
+        const double determinant = dot(cross(column[0], column[1]), column[2]);
+        least = std::min(least, determinant);
+        greatest = std::max(greatest, determinant);
+      }
+      ratios[t] = greatest > 0 ? least / greatest : -1;
+    }
+  });
+  return ratios;
+}
+
 SecondOrderQuality measure_second_order(const TetMesh& mesh) {
   SecondOrderQuality result;
-  result.jacobian = worst_jacobian(mesh);
+  result.jacobian = worst_jacobian(mesh, jacobian_ratios(mesh));
   std::vector<std::uint8_t> taken(mesh.points.size(), 0);
   for (const Tet& tet : mesh.tets) {
     for (std::uint32_t v : tet) taken[v] = 1;

@@ -14,7 +14,11 @@ struct SecondOrderQuality {
   std::vector<std::uint32_t> on_boundary;  ///< mid-side nodes of boundary edges, rising
 };
 
-/// pre: indices valid, mid_nodes as many as tets.
+/// Of each tet the least determinant of the Jacobian at nodes, Gauss points and centroid over the greatest; -1 if none
+/// is positive. pre: indices valid, mid_nodes as many as tets.
+std::vector<double> jacobian_ratios(const TetMesh& mesh);
+
+/// pre: as above.
 SecondOrderQuality measure_second_order(const TetMesh& mesh);
 
 }  // namespace delvox::check

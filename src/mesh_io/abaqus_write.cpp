@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh_io/abaqus_deck.h"
 #include "mesh_io/abaqus_names.h"
 #include "mesh_io/formats.h"
 #include "mesh_io/header_comment.h"
@@ -105,6 +106,7 @@ void write_abaqus(const MeshView& mesh, Out& out) {
     write_boundary(mesh, out);
     write_sets(mesh, out);
     write_materials(mesh, out);
+    if (mesh.deck != nullptr) write_static_step(mesh, *mesh.deck, out);
     return;
   }
   out.put("*ELEMENT, TYPE=S3, ELSET=", kBoundary, '\n');

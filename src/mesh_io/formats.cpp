@@ -8,7 +8,9 @@
 #include "core/output_file.h"
 #include "delvox/core/errors.h"
 #include "delvox/mesh_io/read_mesh.h"
+#include "delvox/mesh_io/write_deck.h"
 #include "delvox/mesh_io/write_mesh.h"
+#include "mesh_io/abaqus_deck.h"
 
 namespace delvox {
 namespace {
@@ -103,6 +105,7 @@ fs::path beside(const fs::path& path, const char* suffix) {
 
 /// Writes a file and its companions, which appear before it does.
 void write_files(MeshView mesh, const Format& format, const fs::path& path) {
+  if (mesh.deck != nullptr) check_deck(mesh, *mesh.deck);
   mesh.stem = path.stem().string();
   const auto write = [&](OutputFile& file, const auto& write_to) {
     Out out(file.stream());
@@ -126,7 +129,7 @@ void write_surface(const SurfaceMesh& mesh, const Format& format, const fs::path
               format, path);
 }
 
-void write_tets(const TetMesh& mesh, const Format& format, const fs::path& path) {
+void write_tets(const TetMesh& mesh, const Format& format, const fs::path& path, const StaticDeck* deck = nullptr) {
   if (format.holds == Holds::kSurfaces) {
     write_surface(boundary_surface(mesh), format, path);
     return;
@@ -142,7 +145,7 @@ void write_tets(const TetMesh& mesh, const Format& format, const fs::path& path)
   const std::vector<Triangle>& boundary = lacking ? computed : mesh.boundary;
   std::vector<Point3> scaled;
   write_files({points_in_unit(mesh.points, mesh.info.unit, scaled), boundary, mesh.tets, mesh.regions, mesh.on_surface,
-               mesh.info, true, faces, mesh.mid_nodes, mesh.sets, mesh.materials},
+               mesh.info, true, faces, mesh.mid_nodes, mesh.sets, mesh.materials, deck},
               format, path);
 }
 
@@ -164,6 +167,12 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   } else {
     write_surface(std::get<SurfaceMesh>(mesh), format, path);
   }
+}
+
+void write_deck(const TetMesh& mesh, const StaticDeck& deck, const fs::path& path) {
+  const Format& format = format_to_write(path);
+  if (format.write != write_abaqus) throw OptionError(path.string() + ": decks are written as .inp");
+  write_tets(mesh, format, path, &deck);
 }
 
 MeshFile read_mesh(const std::filesystem::path& path) {

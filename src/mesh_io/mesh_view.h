@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "delvox/core/mesh.h"
+#include "delvox/mesh_io/write_deck.h"
 #include "mesh_io/node_order.h"
 
 namespace delvox::mesh_io {
@@ -40,6 +41,7 @@ struct MeshView {
   std::span<const MidNodes> mid_nodes = {};  ///< one per tet, or empty: first order
   std::span<const MeshSet> sets = {};
   std::span<const Material> materials = {};
+  const StaticDeck* deck = nullptr;  ///< to be run on it (.inp), or null
   std::string stem = {};  ///< the file's name without its extension, for files that name others
 
   bool second_order() const { return !mid_nodes.empty(); }

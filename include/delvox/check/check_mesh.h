@@ -76,6 +76,7 @@ struct MeshStatistics {
   Distribution angle_degrees;     ///< of surface triangles
   Distribution dihedral_degrees;  ///< of tets
   Distribution radius_edge;       ///< of tets
+  Distribution face_angle_degrees, aspect_ratio, shape_factor, jacobian_ratio;  ///< as solvers measure tets, full level
   Distribution edge_mm;           ///< shortest and longest edge of each tet, else the edges of the triangles
 };
 
@@ -88,11 +89,23 @@ struct VoxelComparison {
   double surface_to_mesh_max_mm = 0, surface_to_mesh_mean_mm = 0;
 };
 
+/// What a solver objects to by its own measure: reported, no promise of ours.
+struct SolverLimit {
+  std::string solver, measure;
+  std::string severity;   ///< "warning" or "error"
+  bool at_least = false;  ///< whether the limit is a least value
+  double limit = 0;
+  std::size_t count = 0;  ///< tets that it objects to
+  double worst = 0;       ///< whether it does or not
+  Point3 where;           ///< centroid of the worst tet
+};
+
 /// Everything that check_mesh found.
 struct CheckReport {
   std::vector<Check> checks;
   MeshStatistics statistics;
   std::optional<VoxelComparison> comparison;
+  std::vector<SolverLimit> solver_limits;  ///< of tets, at the full level
 
   bool all_hold() const;
   /// The check of that name, or null.
