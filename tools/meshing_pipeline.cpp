@@ -230,8 +230,9 @@ void MeshingRun::mesh_at(const SizeField& size) {
                   "; removed " + grouped(run_report_.removals));
   if (sliver_report_) {
     console_.detail("slivers " + grouped(sliver_report_->slivers) + ": reconnected " +
-                    grouped(sliver_report_->reconnections) + ", moved " + grouped(sliver_report_->moves) + ", left " +
-                    grouped(sliver_report_->unmet.size()));
+                    grouped(sliver_report_->reconnections) + ", moved " + grouped(sliver_report_->moves) +
+                    ", inserted " + grouped(sliver_report_->insertions) + ", removed " +
+                    grouped(sliver_report_->removals) + ", left " + grouped(sliver_report_->unmet.size()));
   }
 }
 

@@ -206,6 +206,8 @@ Json to_json(const SliverReport& report) {
   return {{"slivers", report.slivers},
           {"reconnections", report.reconnections},
           {"moves", report.moves},
+          {"insertions", report.insertions},
+          {"removals", report.removals},
           {"unmet", std::move(unmet)}};
 }
 

@@ -8,12 +8,15 @@
 #include "delaunay/predicates.h"
 
 namespace delvox {
-namespace {
-
-struct PlacedTriangle {
+struct CrossingGuard::Placed {
   Triangle ids;
   std::array<Point3, 3> corners;
 
+  Placed(const RepairMesh& mesh, const Triangle& triangle, std::uint32_t moved = RepairMesh::kNone,
+         const Point3& place = {})
+      : ids(triangle) {
+    for (int i = 0; i < 3; ++i) corners[i] = ids[i] == moved ? place : mesh.point(ids[i]);
+  }
   bool has(std::uint32_t id) const { return std::find(ids.begin(), ids.end(), id) != ids.end(); }
   Box3 box() const {
     Box3 box;
@@ -21,6 +24,8 @@ struct PlacedTriangle {
     return box;
   }
 };
+
+namespace {
 
 bool overlap(const Box3& s, const Box3& t) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -37,17 +42,14 @@ bool pierces(const Point3& p, const Point3& q, const std::array<Point3, 3>& t) {
 }
 
 // An edge of one with no corner in common goes through the other. With a common edge, positive tets keep them apart.
-bool cross(const PlacedTriangle& s, const PlacedTriangle& t) {
+template <class Placed>
+bool cross(const Placed& s, const Placed& t) {
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3;
     if (!t.has(s.ids[i]) && !t.has(s.ids[j]) && pierces(s.corners[i], s.corners[j], t.corners)) return true;
     if (!s.has(t.ids[i]) && !s.has(t.ids[j]) && pierces(t.corners[i], t.corners[j], s.corners)) return true;
   }
   return false;
-}
-
-PlacedTriangle placed(const RepairMesh& mesh, const Triangle& ids) {
-  return {ids, {mesh.point(ids[0]), mesh.point(ids[1]), mesh.point(ids[2])}};
 }
 
 // Bits of x, y and z in turn, 21 each.
@@ -69,7 +71,7 @@ void extend(Box3& box, const Box3& other) {
 }  // namespace
 
 Box3 CrossingGuard::box_of(std::uint32_t triangle) const {
-  return placed(mesh_, mesh_.triangle(triangle)).box();
+  return Placed(mesh_, mesh_.triangle(triangle)).box();
 }
 
 void CrossingGuard::build() {
@@ -80,7 +82,7 @@ void CrossingGuard::build() {
   }
   std::vector<std::pair<std::uint64_t, std::uint32_t>> sorted;
   for (std::uint32_t t = 0; t < count; ++t) {
-    if (mesh_.triangle_alive(t)) sorted.emplace_back(morton_code(mesh_.point(mesh_.triangle(t)[0]), all), t);
+    sorted.emplace_back(mesh_.triangle_alive(t) ? morton_code(mesh_.point(mesh_.triangle(t)[0]), all) : 0, t);
   }
   std::sort(sorted.begin(), sorted.end());
   place_.assign(count, 0);
@@ -90,7 +92,9 @@ void CrossingGuard::build() {
   }
   leaves_ = std::bit_ceil((order_.size() + kLeaf - 1) / kLeaf);
   boxes_.assign(2 * leaves_, Box3{});
-  for (std::size_t i = 0; i < order_.size(); ++i) extend(boxes_[leaves_ + i / kLeaf], box_of(order_[i]));
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    if (mesh_.triangle_alive(order_[i])) extend(boxes_[leaves_ + i / kLeaf], box_of(order_[i]));
+  }
   for (std::size_t node = leaves_ - 1; node > 0; --node) {
     for (std::size_t child : {2 * node, 2 * node + 1}) {
       if (!boxes_[child].empty()) extend(boxes_[node], boxes_[child]);
@@ -101,19 +105,30 @@ void CrossingGuard::build() {
 void CrossingGuard::changed(std::span<const std::uint32_t> triangles) {
   if (boxes_.empty()) return;
   for (std::uint32_t t : triangles) {
+    if (t >= place_.size()) {
+      if (std::find(late_.begin(), late_.end(), t) == late_.end()) late_.push_back(t);
+      continue;
+    }
     const Box3 box = box_of(t);
     for (std::size_t node = leaves_ + place_[t] / kLeaf; node > 0; node /= 2) extend(boxes_[node], box);
   }
 }
 
+bool CrossingGuard::crosses(const Placed& triangle, const Box3& box, std::uint32_t other,
+                            std::span<const std::uint32_t> gone) const {
+  if (!mesh_.triangle_alive(other) || std::find(gone.begin(), gone.end(), other) != gone.end()) return false;
+  const Placed t(mesh_, mesh_.triangle(other));
+  return overlap(box, t.box()) && cross(triangle, t);
+}
+
 bool CrossingGuard::crosses(const Triangle& triangle, std::uint32_t moved, const Point3& place,
                             std::span<const std::uint32_t> gone) {
   if (boxes_.empty()) build();
-  PlacedTriangle s = placed(mesh_, triangle);
-  for (int i = 0; i < 3; ++i) {
-    if (s.ids[i] == moved) s.corners[i] = place;
-  }
+  const Placed s(mesh_, triangle, moved, place);
   const Box3 box = s.box();
+  for (std::uint32_t other : late_) {
+    if (crosses(s, box, other, gone)) return true;
+  }
   std::vector<std::size_t> nodes{1};
   while (!nodes.empty()) {
     const std::size_t node = nodes.back();
@@ -126,10 +141,7 @@ bool CrossingGuard::crosses(const Triangle& triangle, std::uint32_t moved, const
     }
     const std::size_t first = (node - leaves_) * kLeaf;
     for (std::size_t i = first; i < std::min(first + kLeaf, order_.size()); ++i) {
-      const std::uint32_t other = order_[i];
-      if (!mesh_.triangle_alive(other) || std::find(gone.begin(), gone.end(), other) != gone.end()) continue;
-      const PlacedTriangle t = placed(mesh_, mesh_.triangle(other));
-      if (overlap(box, t.box()) && cross(s, t)) return true;
+      if (crosses(s, box, order_[i], gone)) return true;
     }
   }
   return false;

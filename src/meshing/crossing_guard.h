@@ -20,18 +20,21 @@ class CrossingGuard {
   bool crosses(const Triangle& triangle, std::span<const std::uint32_t> gone) {
     return crosses(triangle, RepairMesh::kNone, {}, gone);
   }
-  /// To be told of triangles of the boundary that have changed. pre: none has a number that was not there at first.
+  /// To be told of triangles of the boundary that have changed.
   void changed(std::span<const std::uint32_t> triangles);
 
  private:
   static constexpr std::size_t kLeaf = 4;  // triangles in one
   void build();
   Box3 box_of(std::uint32_t triangle) const;
+  struct Placed;
+  bool crosses(const Placed& triangle, const Box3& box, std::uint32_t other, std::span<const std::uint32_t> gone) const;
 
   const RepairMesh& mesh_;
   std::vector<std::uint32_t> order_, place_;  // of triangles along a space-filling curve, and where each is in it
   std::size_t leaves_ = 0;                    // a power of two
   std::vector<Box3> boxes_;                   // node i has children 2 i and 2 i + 1; the leaves come last
+  std::vector<std::uint32_t> late_;           // triangles with numbers that there were none of when the tree was made
 };
 
 }  // namespace delvox

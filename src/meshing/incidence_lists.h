@@ -31,6 +31,8 @@ class IncidenceLists {
     return {pool_.data() + lists_[vertex].begin, lists_[vertex].size};
   }
   void add_vertex() { lists_.emplace_back(); }
+  /// Takes away the last vertex. pre: its list is empty.
+  void remove_vertex() { lists_.pop_back(); }
   void add(std::uint32_t vertex, std::uint32_t cell) {
     List& list = lists_[vertex];
     if (list.size == list.capacity) move_to_end(list);

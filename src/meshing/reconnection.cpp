@@ -98,29 +98,30 @@ void Reconnection::collect(std::uint32_t a, std::uint32_t b, int from, int to, C
   collect(a, b, k, to, change);
 }
 
-double Reconnection::remove_edge(std::uint32_t a, std::uint32_t b, Change& change) {
-  if (!find_ring(a, b)) return 0;
-  if (ring_.size() < 3 && !open_) return 0;
+double Reconnection::remove_edge(std::uint32_t a, std::uint32_t b, double allowance, Change& change) {
+  if (!find_ring(a, b) || (ring_.size() < 3 && !open_)) return -kInfinity;
   double worth = 0;
   for (std::uint32_t t : ring_tets_) worth += shortfall(t);
-  const double cost = triangulate(a, b, worth);
+  const double cost = triangulate(a, b, worth + allowance);
   change.clear();
-  if (!(cost < worth) || (open_ && !flip_boundary(a, b, change))) return 0;
+  if (!(cost < worth + allowance) || (open_ && !flip_boundary(a, b, change))) return -kInfinity;
   change.old_tets = ring_tets_;
   collect(a, b, 0, static_cast<int>(ring_.size()) - 1, change);
   return worth - cost;
 }
 
-// The tet beyond edge uv of a face: its corners are u, v, apex and another. kNone at the boundary, or if the tet across
-// is that of the other side.
-std::uint32_t Reconnection::across(std::uint32_t tet, std::uint32_t u, std::uint32_t v, std::uint32_t apex) const {
-  for (std::uint32_t t : mesh_.star(u)) {
-    if (t == tet) continue;
-    const Tet& corners = mesh_.tet(t);
-    const auto has = [&](std::uint32_t w) { return std::find(corners.begin(), corners.end(), w) != corners.end(); };
-    if (has(v) && has(apex)) return t;
-  }
-  return RepairMesh::kNone;
+// The tet across the face of u, v and the apex; kNone at the boundary and where another region begins.
+std::uint32_t Reconnection::beyond(std::uint32_t tet, std::uint32_t u, std::uint32_t v, std::uint32_t apex) const {
+  const std::uint32_t next = mesh_.across(tet, corner_beside(tet, u, v, apex));
+  return next == RepairMesh::kNone || mesh_.region(next) != mesh_.region(tet) ? RepairMesh::kNone : next;
+}
+
+// Which corner of a tet is none of these three.
+int Reconnection::corner_beside(std::uint32_t tet, std::uint32_t u, std::uint32_t v, std::uint32_t w) const {
+  const Tet& corners = mesh_.tet(tet);
+  int i = 0;
+  while (corners[i] == u || corners[i] == v || corners[i] == w) ++i;
+  return i;
 }
 
 // The cheaper of a tet at edge uv, and of going on to the face beyond it. Seen from above_, the faces lie to the left
@@ -128,44 +129,34 @@ std::uint32_t Reconnection::across(std::uint32_t tet, std::uint32_t u, std::uint
 double Reconnection::beyond_edge(std::uint32_t u, std::uint32_t v, std::uint32_t tet_below, std::uint32_t tet_above,
                                  int depth, Change& change) {
   const double here = price(u, v, below_, above_);
-  if (here == 0 || depth == 0) {
-    change.new_tets.push_back({u, v, below_, above_});
-    return here;
-  }
-  const std::uint32_t below = across(tet_below, u, v, below_), above = across(tet_above, u, v, above_);
-  const auto other_corner = [&](std::uint32_t t, std::uint32_t apex) {
-    for (std::uint32_t w : mesh_.tet(t)) {
-      if (w != u && w != v && w != apex) return w;
-    }
-    return RepairMesh::kNone;
-  };
-  if (below != RepairMesh::kNone && above != RepairMesh::kNone && below != above &&
-      mesh_.region(below) == mesh_.region(tet_below) && mesh_.region(above) == mesh_.region(tet_below)) {
-    const std::uint32_t w = other_corner(below, below_);
+  const std::size_t old_count = change.old_tets.size(), new_count = change.new_tets.size();
+  if (here > 0 && depth > 0) {
+    const std::uint32_t below = beyond(tet_below, u, v, below_), above = beyond(tet_above, u, v, above_);
+    const bool both = below != RepairMesh::kNone && above != RepairMesh::kNone && below != above;
     const bool known = std::find(change.old_tets.begin(), change.old_tets.end(), below) != change.old_tets.end();
-    if (w == other_corner(above, above_) && !known) {
-      const std::size_t old_count = change.old_tets.size(), new_count = change.new_tets.size();
-      change.old_tets.push_back(below);
-      change.old_tets.push_back(above);
+    if (both && !known) {
+      const std::uint32_t w = mesh_.tet(below)[corner_beside(below, u, v, below_)];
       double cost = -shortfall(below) - shortfall(above);
-      cost += beyond_edge(u, w, below, above, depth - 1, change);
-      if (cost < here) cost += beyond_edge(w, v, below, above, depth - 1, change);
-      if (cost < here) return cost;
-      change.old_tets.resize(old_count);
-      change.new_tets.resize(new_count);
+      change.old_tets.insert(change.old_tets.end(), {below, above});
+      const bool same_face = w == mesh_.tet(above)[corner_beside(above, u, v, above_)];
+      if (same_face) cost += beyond_edge(u, w, below, above, depth - 1, change);
+      if (same_face && cost < here) cost += beyond_edge(w, v, below, above, depth - 1, change);
+      if (same_face && cost < here) return cost;
     }
   }
+  change.old_tets.resize(old_count);
+  change.new_tets.resize(new_count);
   change.new_tets.push_back({u, v, below_, above_});
   return here;
 }
 
-double Reconnection::remove_faces(std::uint32_t tet, int face, Change& change) {
+double Reconnection::remove_faces(std::uint32_t tet, int face, double allowance, Change& change) {
   const Tet& corners = mesh_.tet(tet);
   const auto& f = kTetFaces[face];
   const std::uint32_t p = corners[f[0]], q = corners[f[1]], r = corners[f[2]];  // seen from outside
   below_ = corners[face];
-  const std::uint32_t other = across(tet, p, q, r);
-  if (other == RepairMesh::kNone || mesh_.region(other) != mesh_.region(tet)) return 0;
+  const std::uint32_t other = mesh_.across(tet, face);
+  if (other == RepairMesh::kNone || mesh_.region(other) != mesh_.region(tet)) return -kInfinity;
   for (std::uint32_t w : mesh_.tet(other)) {
     if (w != p && w != q && w != r) above_ = w;
   }
@@ -178,7 +169,7 @@ double Reconnection::remove_faces(std::uint32_t tet, int face, Change& change) {
   for (int i = 0; i < 3 && cost < kInfinity; ++i) {
     cost += beyond_edge(edge[i], edge[(i + 1) % 3], tet, other, kDepth, change);
   }
-  return cost < worth ? worth - cost : 0;
+  return cost < worth + allowance ? worth - cost : -kInfinity;
 }
 
 }  // namespace delvox

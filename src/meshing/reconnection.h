@@ -16,12 +16,13 @@ class Reconnection {
   Reconnection(const RepairMesh& mesh, const TetLimits& tets, const SurfaceLimits& surface, CrossingGuard& guard)
       : mesh_(mesh), tets_(tets), surface_(surface), guard_(guard) {}
 
-  /// The best way to fill the tets around edge ab without it: by how much shortfalls become less, and the change; 0 if
-  /// there is none. Around an edge of the boundary, the boundary's edge is flipped with it, if its bounds allow.
-  double remove_edge(std::uint32_t a, std::uint32_t b, Change& change);
+  /// The best way to fill the tets around edge ab without it: by how much shortfalls become less, and the change; less
+  /// infinity if there is none that makes them more by less than `allowance`. Around an edge of the boundary, the
+  /// boundary's edge is flipped with it, if its bounds allow.
+  double remove_edge(std::uint32_t a, std::uint32_t b, double allowance, Change& change);
 
-  /// The best edge through face i of a tet, and through more faces beside it, in place of these faces.
-  double remove_faces(std::uint32_t tet, int face, Change& change);
+  /// The same for an edge through a face of a tet, and through more faces beside it, in place of these faces.
+  double remove_faces(std::uint32_t tet, int face, double allowance, Change& change);
 
  private:
   struct Side {
@@ -40,9 +41,10 @@ class Reconnection {
     const Tet& t = mesh_.tet(tet);
     return tets_.shortfall(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2]), mesh_.point(t[3]));
   }
+  std::uint32_t beyond(std::uint32_t tet, std::uint32_t u, std::uint32_t v, std::uint32_t apex) const;
+  int corner_beside(std::uint32_t tet, std::uint32_t u, std::uint32_t v, std::uint32_t w) const;
   double beyond_edge(std::uint32_t u, std::uint32_t v, std::uint32_t tet_below, std::uint32_t tet_above, int depth,
                      Change& change);
-  std::uint32_t across(std::uint32_t tet, std::uint32_t u, std::uint32_t v, std::uint32_t apex) const;
 
   const RepairMesh& mesh_;
   const TetLimits& tets_;

@@ -9,9 +9,9 @@
 #include "core/parallel.h"
 #include "delvox/core/errors.h"
 #include "meshing/check_options.h"
-#include "meshing/reconnection.h"
+#include "meshing/local_repair.h"
 #include "meshing/run_budget.h"
-#include "meshing/star_smoothing.h"
+#include "meshing/trial_repair.h"
 #include "meshing/unmet_tets.h"
 
 namespace delvox {
@@ -40,113 +40,62 @@ class SliverRemoval {
   SliverRemoval(TetMesh& mesh, const Oracle& oracle, const SurfaceCriteria& surface, const TetLimits& tets,
                 double min_dihedral_degrees, RunBudget& budget)
       : min_dihedral_degrees_(min_dihedral_degrees),
-        points_(mesh.points),
         mesh_(mesh),
-        tets_(tets),
         surface_(oracle, surface),
-        guard_(mesh_),
-        reconnection_(mesh_, tets_, surface_, guard_),
-        smoothing_(mesh_, tets_, surface_, guard_),
+        local_(mesh_, tets, surface_),
+        trial_(mesh_, tets, surface_, local_),
         budget_(budget) {}
 
   void run(std::vector<std::uint32_t> slivers, SliverReport& report);
 
  private:
-  // Less than this share of a flat tet's shortfall is no gain: what goes on must come to an end.
-  static constexpr double kLeastGain = 1e-4;
-  static constexpr int kRounds = 6;
-
-  double shortfall(std::uint32_t tet) const {
-    const Tet& t = mesh_.tet(tet);
-    return tets_.shortfall(mesh_.point(t[0]), mesh_.point(t[1]), mesh_.point(t[2]), mesh_.point(t[3]));
-  }
-  bool is_sliver(std::uint32_t tet) const { return mesh_.alive(tet) && shortfall(tet) > 0; }
-  bool reconnect(std::uint32_t tet);
-  bool move_corners(std::uint32_t tet);
-  void await(std::span<const std::uint32_t> tets) {
-    std::copy_if(tets.begin(), tets.end(), std::back_inserter(waiting_), [&](std::uint32_t t) { return is_sliver(t); });
-  }
-  void end_round();
+  template <class Repair>
+  std::vector<std::uint32_t> one_round(const std::vector<std::uint32_t>& slivers, const Repair& repair);
 
   const double min_dihedral_degrees_;
-  const std::vector<Point3>& points_;
   RepairMesh mesh_;
-  const TetLimits& tets_;
   SurfaceLimits surface_;
-  CrossingGuard guard_;
-  Reconnection reconnection_;
-  StarSmoothing smoothing_;
+  LocalRepair local_;
+  TrialRepair trial_;
   RunBudget& budget_;
-  std::vector<std::uint32_t> waiting_;  // slivers that resisted, and those that came of repairing others
-  std::size_t reconnections_ = 0, moves_ = 0;
-  Change change_, best_change_;
 };
 
+// Single changes while they help, then trials of what resists.
 void SliverRemoval::run(std::vector<std::uint32_t> slivers, SliverReport& report) {
-  bool changed = true, go_on = true;
-  for (int round = 0; round < kRounds && changed && go_on; ++round) {
-    changed = false;
-    for (std::size_t i = 0; i < slivers.size(); ++i) {
-      go_on = go_on && budget_.go_on(points_.size(), slivers.size() - i);
-      const std::uint32_t tet = slivers[i];
-      if (!is_sliver(tet)) continue;
-      if (go_on && (reconnect(tet) || move_corners(tet))) changed = true;
-      if (is_sliver(tet)) waiting_.push_back(tet);
-    }
-    end_round();
-    slivers.swap(waiting_);
-  }
-  report.reconnections = reconnections_;
-  report.moves = moves_;
+  constexpr int kRounds = 3, kTrialRounds = 3;
+  const auto by_one_change = [&](std::uint32_t tet) { local_.repair(tet); };
+  const auto by_trial = [&](std::uint32_t tet) {
+    if (!(local_.repair(tet) > 0)) trial_.repair(tet);
+  };
+  for (int round = 0; round < kRounds && !slivers.empty(); ++round) slivers = one_round(slivers, by_one_change);
+  for (int round = 0; round < kTrialRounds && !slivers.empty(); ++round) slivers = one_round(slivers, by_trial);
+  report.reconnections = local_.reconnections();
+  report.moves = local_.moves();
+  report.insertions = trial_.insertions();
+  report.removals = trial_.removals();
   report.unmet = unmet_tets(mesh_, slivers, min_dihedral_degrees_);
-  if (!go_on) {
+  if (budget_.exhausted()) {
     for (UnmetTet& unmet : report.unmet) unmet.reason = "the run was stopped before";
   }
   mesh_.finish();
 }
 
-void SliverRemoval::end_round() {
-  std::sort(waiting_.begin(), waiting_.end());
-  waiting_.erase(std::unique(waiting_.begin(), waiting_.end()), waiting_.end());
-  std::erase_if(waiting_, [&](std::uint32_t t) { return !is_sliver(t); });
-}
-
-// Makes the best of the changes at the edges and faces of a tet.
-bool SliverRemoval::reconnect(std::uint32_t tet) {
-  const Tet corners = mesh_.tet(tet);
-  double best = kLeastGain;
-  const auto take = [&](double gain) {
-    if (!(gain > best)) return;
-    best = gain;
-    std::swap(best_change_, change_);
-  };
-  best_change_.clear();
-  for (int i = 0; i < 4; ++i) {
-    for (int j = i + 1; j < 4; ++j) take(reconnection_.remove_edge(corners[i], corners[j], change_));
+// The slivers that are left, and those that came of repairing others, in the order of their numbers.
+template <class Repair>
+std::vector<std::uint32_t> SliverRemoval::one_round(const std::vector<std::uint32_t>& slivers, const Repair& repair) {
+  std::vector<std::uint32_t> left;
+  for (std::size_t i = 0; i < slivers.size(); ++i) {
+    const std::uint32_t tet = slivers[i];
+    if (!local_.is_sliver(tet)) continue;
+    if (budget_.go_on(mesh_.point_count(), slivers.size() - i)) repair(tet);
+    left.push_back(tet);
   }
-  for (int i = 0; i < 4; ++i) take(reconnection_.remove_faces(tet, i, change_));
-  if (best_change_.old_tets.empty()) return false;
-  mesh_.apply(best_change_);
-  guard_.changed(mesh_.added_triangles());
-  ++reconnections_;
-  await(mesh_.added_tets());
-  return true;
-}
-
-bool SliverRemoval::move_corners(std::uint32_t tet) {
-  const Tet corners = mesh_.tet(tet);
-  bool moved = false;
-  for (std::uint32_t v : corners) {
-    Point3 place;
-    if (!(smoothing_.improve(v, place) > kLeastGain)) continue;
-    mesh_.move(v, place);
-    guard_.changed(mesh_.fan(v));
-    ++moves_;
-    moved = true;
-    await(mesh_.star(v));
-    if (!is_sliver(tet)) break;
-  }
-  return moved;
+  left.insert(left.end(), local_.waiting().begin(), local_.waiting().end());
+  local_.waiting().clear();
+  std::sort(left.begin(), left.end());
+  left.erase(std::unique(left.begin(), left.end()), left.end());
+  std::erase_if(left, [&](std::uint32_t t) { return !local_.is_sliver(t); });
+  return left;
 }
 
 // One entry for each reason.

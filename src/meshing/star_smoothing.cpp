@@ -62,8 +62,10 @@ bool StarSmoothing::gather(std::uint32_t vertex) {
     outward_ = outward_ + (1 / norm(n)) * n;
     fan_.push_back(side);
   }
-  if (!fan_.empty()) outward_ = (1 / norm(outward_)) * outward_;
-  return true;
+  if (fan_.empty()) return true;
+  const double length = norm(outward_);
+  outward_ = (1 / length) * outward_;
+  return length > 0;
 }
 
 // False if a tet breaks a bound, or its cosine exceeds the limit: such a tet is put in front, as the first to try.

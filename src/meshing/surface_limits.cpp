@@ -42,6 +42,11 @@ bool SurfaceLimits::allows(const Point3& a, const Point3& b, const Point3& c) co
   return false;
 }
 
+std::optional<Point3> SurfaceLimits::nearest(const Point3& p, const Vector3& outward, double reach, Label label) const {
+  const std::vector<Point3> found = oracle_.intersect_all(p, p + (inside(p, label) ? reach : -reach) * outward);
+  return found.empty() ? std::nullopt : std::optional(found[0]);
+}
+
 std::optional<Point3> SurfaceLimits::project(const Point3& p, const Vector3& outward, double reach, Label label) const {
   const Point3 below = p - reach * outward, above = p + reach * outward;
   if (oracle_.label(below) != label || oracle_.label(above) == label) return std::nullopt;

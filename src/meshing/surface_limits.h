@@ -21,6 +21,9 @@ class SurfaceLimits {
   /// The point of the surface on the line through p along the unit vector `outward`, at most `reach` away, where
   /// `label` is left; none if the line does not leave it there.
   std::optional<Point3> project(const Point3& p, const Vector3& outward, double reach, Label label) const;
+  /// The point of the surface that is nearest to p on the line through it along the unit vector `outward`, on that side
+  /// of p where `label` is left outward or entered inward; at most `reach` away.
+  std::optional<Point3> nearest(const Point3& p, const Vector3& outward, double reach, Label label) const;
   bool inside(const Point3& p, Label label) const { return oracle_.label(p) == label; }
   double largest_size() const { return criteria_.size.maximum(); }
 

@@ -43,7 +43,7 @@ TEST_F(Reconnections, TakeOutABadEdgeWithRingsOfThreeToNineCornersAndFillTheSame
     RepairMesh repair(mesh);
     CrossingGuard guard(repair);
     Change change;
-    ASSERT_GT(Reconnection(repair, tets_, surface_, guard).remove_edge(0, 1, change), 0);
+    ASSERT_GT(Reconnection(repair, tets_, surface_, guard).remove_edge(0, 1, 0, change), 0);
     EXPECT_EQ(change.old_tets.size(), static_cast<std::size_t>(n));
     EXPECT_EQ(change.new_tets.size(), 2 * (static_cast<std::size_t>(n) - 2));
     repair.apply(change);
@@ -64,7 +64,7 @@ TEST_F(Reconnections, LeaveAGoodEdgeAndOneWithoutWhichABoundWouldBreak) {
     CrossingGuard guard(repair);
     Change change;
     Reconnection reconnection(repair, mesh == &good ? tets_ : strict, surface_, guard);
-    EXPECT_EQ(reconnection.remove_edge(0, 1, change), 0);
+    EXPECT_LT(reconnection.remove_edge(0, 1, 0, change), 0);
   }
 }
 
@@ -83,7 +83,7 @@ TEST_F(Reconnections, PutAnEdgeInPlaceOfFacesAndThatIsUndoneByTakingItOut) {
   for (std::uint32_t t = 0; t < 6; ++t) {
     for (int face = 0; face < 4; ++face) {
       Change candidate;
-      const double gain = reconnection.remove_faces(t, face, candidate);
+      const double gain = reconnection.remove_faces(t, face, 0, candidate);
       if (gain > best) {
         best = gain;
         change = candidate;

@@ -88,12 +88,17 @@ TEST_P(SliversOfPhantoms, AreGoneAndEveryOtherPromiseHoldsStillTwiceAlike) {
   EXPECT_EQ(second.boundary, mesh.boundary);
 }
 
-TEST(RemoveSlivers, LeavesNoAngleBelowTwentyDegreesOnSmoothShapes) {
-  for (const char* kind : {"sphere", "ellipsoid", "torus", "shells"}) {
-    const auto oracle = test::voxel_phantom_oracle(kind, test::cubic_image(32));
-    const Repaired repaired = repair(*oracle, options_for(1.2, 0.1, 20));
-    EXPECT_GE(smallest_dihedral(repaired.mesh), 20) << kind;
-    test::expect_all_checks_hold(repaired.mesh);
+TEST(RemoveSlivers, LeavesNoAngleBelowTwentyDegreesOnSmoothShapesHoweverTheyAreGiven) {
+  for (const char* kind : {"sphere", "ellipsoid", "torus", "shells", "touching-balls", "gyroid"}) {
+    SCOPED_TRACE(kind);
+    const auto voxels = test::voxel_phantom_oracle(kind, test::cubic_image(32));
+    const auto formula = test::implicit_phantom_oracle(kind, test::cubic_image(32), 0.5);
+    for (const SmoothOracle* oracle : {voxels.get(), formula.get()}) {
+      const Repaired repaired = repair(*oracle, options_for(1.2, 0.1, 20));
+      EXPECT_GE(smallest_dihedral(repaired.mesh), 20);
+      test::expect_all_checks_hold(repaired.mesh);
+      test::expect_good_nodes(repaired.mesh, *oracle, 1);
+    }
   }
 }
 

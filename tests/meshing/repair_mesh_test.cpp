@@ -29,7 +29,7 @@ std::vector<std::uint32_t> tets_at(const TetMesh& mesh, std::uint32_t vertex) {
 Change split(RepairMesh& mesh, std::uint32_t tet) {
   const Tet t = mesh.tet(tet);
   const Point3 middle = 0.25 * ((mesh.point(t[0]) + mesh.point(t[1])) + (mesh.point(t[2]) + mesh.point(t[3])));
-  const std::uint32_t v = mesh.add_vertex(middle);
+  const std::uint32_t v = mesh.add_vertex(middle, false);
   Change change;
   change.old_tets = {tet};
   for (int i = 0; i < 4; ++i) {
@@ -50,12 +50,45 @@ TEST(RepairMesh, KnowsWhatMeetsAtEachVertexThroughManyChanges) {
   test::expect_all_checks_hold(tets);
 }
 
+TEST(RepairMesh, TakesATrialBackToTheLastNumber) {
+  TetMesh tets = test::cube_mesh(3);
+  tets.on_surface.assign(tets.points.size(), 1);
+  RepairMesh mesh(tets);
+  mesh.apply(split(mesh, 11));
+  const TetMesh before = tets;
+  const auto live_tets = [&] {
+    std::vector<Tet> live;
+    for (std::uint32_t t = 0; t < tets.tets.size(); ++t) {
+      if (mesh.alive(t)) live.push_back(tets.tets[t]);
+    }
+    return live;
+  };
+  mesh.begin_trial();
+  for (std::uint32_t t : {3u, 5u, 11u, 100u}) {
+    mesh.apply(split(mesh, t));
+    mesh.move(t, {1.25, 0.5, 0.5});
+    mesh.apply(split(mesh, mesh.added_tets()[1]));
+  }
+  Change vanishing;
+  vanishing.old_tets = {40, 7};
+  vanishing.old_triangles = {0, 2};
+  mesh.apply(vanishing);
+  mesh.undo_trial();
+  EXPECT_EQ(tets.points, before.points);
+  EXPECT_EQ(tets.on_surface, before.on_surface);
+  EXPECT_EQ(live_tets(), before.tets);
+  EXPECT_EQ(tets.boundary, before.boundary);
+  for (std::uint32_t v = 0; v < tets.points.size(); ++v) EXPECT_EQ(sorted(mesh.star(v)), tets_at(before, v)) << v;
+  mesh.finish();
+  EXPECT_EQ(tets.tets, before.tets);
+}
+
 TEST(RepairMesh, ClosesTheGapsThatVanishedTetsTrianglesAndPointsLeave) {
   TetMesh tets = test::cube_mesh(2);
   tets.regions.assign(tets.tets.size(), 3);
   tets.on_surface.assign(tets.points.size(), 1);
   RepairMesh mesh(tets);
-  const std::uint32_t v = mesh.add_vertex({0.3, 0.2, 0.1});  // never used
+  const std::uint32_t v = mesh.add_vertex({0.3, 0.2, 0.1}, false);  // never used
   EXPECT_TRUE(mesh.star(v).empty());
   Change change;
   change.old_tets = {5};

@@ -23,23 +23,24 @@ struct UnmetTet {
   Point3 where;  ///< its centroid, world
   double dihedral_degrees = 0;
   std::string reason;
-  bool surface_forbids = false;  ///< no tets within this surface, with these nodes, could do better
+  bool surface_forbids = false;  ///< no tets that keep the nodes and triangles there could do better
 };
 
 /// What remove_slivers did.
 struct SliverReport {
-  std::size_t slivers = 0;  ///< tets with a smaller dihedral angle, at first
-  std::size_t reconnections = 0, moves = 0;
+  std::size_t slivers = 0;                   ///< tets with a smaller dihedral angle, at first
+  std::size_t reconnections = 0, moves = 0;  ///< also such as were tried and taken back
+  std::size_t insertions = 0, removals = 0;  ///< of nodes
   std::vector<UnmetTet> unmet;
 };
 
 /// Repairs the tets of a mesh of deltetsurf() that have a dihedral angle below the wanted one: edges and faces are
-/// taken out or flipped, nodes moved, those of the boundary on the surface (Klingner and Shewchuk, "Aggressive
-/// Tetrahedral Mesh Improvement", 2007). All else that the mesh promises stays true after each step: positive tets, a
-/// boundary of the same topology on the surface, which does not cross itself, its angles and sizes, radius-edge ratios,
-/// cell sizes. If nothing is left, the mesh promises the angle; what is left is told in both reports and breaks no
-/// promise. Tets and points are renumbered. `report` is that of deltetsurf(). pre: first order, no sets. Throws
-/// OptionError, Cancelled.
+/// taken out or flipped, nodes moved, those of the boundary on the surface, and nodes put in and taken out (Klingner and
+/// Shewchuk, "Aggressive Tetrahedral Mesh Improvement", 2007). All else that the mesh promises stays true after each
+/// step: positive tets, a boundary of the same topology on the surface, which does not cross itself, its angles and
+/// sizes, radius-edge ratios, cell sizes. If nothing is left, the mesh promises the angle; what is left is told in both
+/// reports and breaks no promise. Tets and points are renumbered. `report` is that of deltetsurf(). pre: first order, no
+/// sets. Throws OptionError, Cancelled.
 SliverReport remove_slivers(TetMesh& mesh, const Oracle& oracle, const RemoveSliversOptions& options,
                             RunReport& report);
 
