@@ -19,8 +19,14 @@ void add_size_options(CLI::App& app, MeshingOptions& options) {
       ->excludes(size)
       ->type_name("N");
   app.add_option("--cell-size", options.cell_size,
-                 "Upper bound on the circumradii of tets, mm: a number or a volume file (default: as --size)")
+                 "Upper bound on the circumradii of tets, mm: a number or a volume file (default: as --size; with "
+                 "--grade: none but that)")
       ->type_name("S");
+  app.add_option("--grade", options.grade,
+                 "Tets grow with depth: circumradii up to --size + G * distance from the surface, G from 0 (off) to 1")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str()
+      ->type_name("G");
 }
 
 void add_shape_options(CLI::App& app, MeshingOptions& options) {

@@ -26,6 +26,7 @@ struct MeshingOptions {
   std::string box;                       ///< "x0:x1,y0:y1,z0:z1", where the formula is looked at
   std::string size;                      ///< a number or a volume file; empty: the domain's default
   std::string cell_size;                 ///< a number or a volume file; empty: as size
+  double grade = 0;                      ///< growth of the cell size per mm of depth
   std::size_t tets = 0;                  ///< wanted number of tets; 0: as size says
   double min_angle_degrees = 30;
   double radius_edge = 2;

@@ -10,6 +10,7 @@
 #include "delvox/core/errors.h"
 #include "delvox/meshing/delsurf.h"
 #include "delvox/meshing/deltetsurf.h"
+#include "delvox/meshing/graded_size.h"
 #include "delvox/meshing/remove_slivers.h"
 #include "delvox/meshing/second_order.h"
 #include "exit_codes.h"
@@ -69,6 +70,7 @@ class MeshingRun {
  private:
   void decide();
   void mesh();
+  double first_size();
   void search_size();
   void curve(const Oracle& oracle);
   void check_image() const;
@@ -80,10 +82,11 @@ class MeshingRun {
   void look_ahead(const Oracle& oracle);
   [[noreturn]] void refuse(const Oracle& oracle, const ProcessForecast& forecast) const;
   SurfaceCriteria surface_criteria(const SizeField& size) const;
-  TetCriteria tet_criteria(const SizeField& size) const { return {options_.radius_edge, cell_size_.value_or(size)}; }
+  void find_depths(const Oracle& oracle);
+  TetCriteria tet_criteria(double factor) const;
   RunControl control();
-  Mesh run_mesher(const Oracle& oracle, const SizeField& size);
-  void remove_slivers_of(TetMesh& mesh, const Oracle& oracle, const SizeField& size);
+  Mesh run_mesher(const Oracle& oracle);
+  void remove_slivers_of(TetMesh& mesh, const Oracle& oracle);
   void list_unmet_tets() const;
   double meshing_seconds() const;
   void check();
@@ -100,6 +103,7 @@ class MeshingRun {
   SizeField size_ = 1.0;
   std::string size_sentence_;
   std::optional<SizeField> cell_size_;
+  std::optional<DepthField> depth_;  // with --grade, of the oracle at size_
   std::optional<double> max_bytes_;
   std::optional<Forecast> forecast_;
   Mesh mesh_;
@@ -137,12 +141,30 @@ SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
   return surface;
 }
 
+// --grade: how deep inside every place lies.
+void MeshingRun::find_depths(const Oracle& oracle) {
+  if (options_.grade == 0) return;
+  depth_ = watch_.timed("depth", [&] {
+    return DepthField(oracle, size_, [] {
+      throw_if_cancelled();
+      return true;
+    });
+  });
+}
+
+// With sizes `factor` times as large.
+TetCriteria MeshingRun::tet_criteria(double factor) const {
+  const SizeField size = scaled(size_, factor);
+  if (!depth_) return {options_.radius_edge, cell_size_ ? scaled(*cell_size_, factor) : size};
+  const SizeField largest = cell_size_ ? scaled(*cell_size_, factor) : std::numeric_limits<double>::infinity();
+  return graded({options_.radius_edge, largest}, size, *depth_, options_.grade);
+}
+
 // What a run with sizes `factor` times as large is expected to take.
 ProcessForecast MeshingRun::forecast_at(const Oracle& oracle, double factor) const {
   const SurfaceCriteria surface = surface_criteria(scaled(size_, factor));
-  const TetCriteria tets{options_.radius_edge, scaled(cell_size_.value_or(size_), factor)};
-  const Forecast mesh =
-      options_.kind == MeshKind::kSurface ? forecast_surface(oracle, surface) : forecast_tets(oracle, surface, tets);
+  const Forecast mesh = options_.kind == MeshKind::kSurface ? forecast_surface(oracle, surface)
+                                                            : forecast_tets(oracle, surface, tet_criteria(factor));
   return {limited(mesh, options_.limits.max_vertices), process_memory()};
 }
 
@@ -186,19 +208,19 @@ RunControl MeshingRun::control() {
 }
 
 // One run of the book's algorithm.
-Mesh MeshingRun::run_mesher(const Oracle& oracle, const SizeField& size) {
-  const SurfaceCriteria surface = surface_criteria(size);
+Mesh MeshingRun::run_mesher(const Oracle& oracle) {
+  const SurfaceCriteria surface = surface_criteria(size_);
   return watch_.timed("meshing", [&]() -> Mesh {
     if (options_.kind == MeshKind::kSurface) return delsurf(oracle, {surface, control()}, run_report_);
-    return deltetsurf(oracle, {surface, tet_criteria(size), control()}, run_report_);
+    return deltetsurf(oracle, {surface, tet_criteria(1), control()}, run_report_);
   });
 }
 
 // A bound that was asked for is promised, so that the check fails where it does not hold.
-void MeshingRun::remove_slivers_of(TetMesh& mesh, const Oracle& oracle, const SizeField& size) {
+void MeshingRun::remove_slivers_of(TetMesh& mesh, const Oracle& oracle) {
   const double bound = options_.min_dihedral_degrees.value_or(kDefaultMinDihedralDegrees);
   if (bound == 0 || run_report_.stop != StopReason::kFinished) return;
-  const RemoveSliversOptions options{bound, surface_criteria(size), tet_criteria(size), control()};
+  const RemoveSliversOptions options{bound, surface_criteria(size_), tet_criteria(1), control()};
   sliver_report_ = watch_.timed("slivers", [&] { return remove_slivers(mesh, oracle, options, run_report_); });
   if (options_.min_dihedral_degrees) mesh.info.promises.min_dihedral_degrees = bound;
 }
@@ -215,11 +237,12 @@ void MeshingRun::mesh_at(const SizeField& size) {
   size_ = size;
   const auto oracle = domain_->make_oracle(size, watch_);
   throw_if_cancelled();
+  find_depths(*oracle);
   look_ahead(*oracle);
   throw_if_cancelled();
-  mesh_ = run_mesher(*oracle, size);
+  mesh_ = run_mesher(*oracle);
   sliver_report_.reset();
-  if (auto* tets = std::get_if<TetMesh>(&mesh_)) remove_slivers_of(*tets, *oracle, size);
+  if (auto* tets = std::get_if<TetMesh>(&mesh_)) remove_slivers_of(*tets, *oracle);
   progress_.clear();
   if (options_.output.order == 2) watch_.timed("second order", [&] { curve(*oracle); });
   for (const StageTime& stage : run_report_.stages) {
@@ -296,12 +319,31 @@ void MeshingRun::name_sets() {
   }
 }
 
+// Where --tets begins. With --grade, tets do not go with the inverse cube of the size: the forecast knows better.
+double MeshingRun::first_size() {
+  const double guess = domain_->guess_size(options_.tets);
+  if (options_.grade == 0) return guess;
+  size_ = guess;
+  double factor = 1;
+  try {
+    const auto oracle = domain_->make_oracle(size_, watch_);
+    find_depths(*oracle);
+    for (int step = 0; step < 4; ++step) {
+      const double tets = forecast_at(*oracle, factor).mesh.likely.tets;
+      if (!(tets > 0)) return guess;
+      factor *= std::pow(tets / static_cast<double>(options_.tets), 1 / 2.5);
+    }
+  } catch (const NothingToMesh&) {
+    return guess;  // too small for the default of --min-component, perhaps; the search will tell
+  }
+  return factor * guess;
+}
+
 // --tets: meshes at sizes that close in on the wanted number. A size whose default --min-component takes everything out
 // has too few tets.
 void MeshingRun::search_size() {
   double last_size = 0;
-  const double first_size = domain_->guess_size(options_.tets);
-  const SizeSearch found = find_size(options_.tets, first_size, [&](double size) -> std::optional<std::size_t> {
+  const SizeSearch found = find_size(options_.tets, first_size(), [&](double size) -> std::optional<std::size_t> {
     last_size = size;
     try {
       mesh_at(size);

@@ -43,6 +43,7 @@ Json to_json(const Promises& promises) {
           {"radius_edge", optional_json(promises.radius_edge)},
           {"size_mm", optional_json(promises.size)},
           {"cell_size_mm", optional_json(promises.cell_size)},
+          {"grade", optional_json(promises.grade)},
           {"max_deviation_mm", optional_json(promises.max_deviation)},
           {"min_dihedral_degrees", optional_json(promises.min_dihedral_degrees)}};
 }

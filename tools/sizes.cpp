@@ -120,12 +120,6 @@ double guess_size(std::size_t tets, const Volume& volume, const Isosurface& surf
   return guess_size(tets, measure_inside(volume, surface).volume_mm3);
 }
 
-SizeField scaled(const SizeField& size, double factor) {
-  if (size.constant()) return SizeField(factor * size.maximum());
-  return SizeField([size, factor](const Point3& p) { return factor * size(p); }, factor * size.minimum(),
-                   factor * size.maximum());
-}
-
 SizeField parse_size(const std::string& text, const std::string& option, Frame frame) {
   const bool looks_like_number = !text.empty() && text.find_first_not_of("0123456789.eE+-") == std::string::npos;
   if (!looks_like_number) {

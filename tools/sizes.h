@@ -16,9 +16,6 @@ double default_size(const Volume& volume, const Isosurface& surface);
 /// patient frame is turned to `frame`. Throws OptionError, InputError.
 SizeField parse_size(const std::string& text, const std::string& option, Frame frame);
 
-/// A size field `factor` times as large.
-SizeField scaled(const SizeField& size, double factor);
-
 /// A guess at the size that gives `tets` tets in so much volume.
 double guess_size(std::size_t tets, double inside_mm3);
 /// The same for the inside of a volume. Throws NothingToMesh if no sample is inside.

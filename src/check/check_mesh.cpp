@@ -6,6 +6,7 @@
 
 #include "check/crossing_triangles.h"
 #include "check/element_quality.h"
+#include "check/gradation.h"
 #include "check/point_checks.h"
 #include "check/report_builder.h"
 #include "check/second_order_checks.h"
@@ -207,11 +208,20 @@ class MeshChecker {
     if (tets_ == nullptr) return;
     builder_.bounded("radius-edge", quality_.radius_edge, bounds_.radius_edge, "");
     builder_.bounded("cell size", quality_.circumradius, bounds_.cell_size, "mm");
+    check_gradation();
     builder_.bounded("dihedral", quality_.dihedral, bounds_.min_dihedral_degrees, "deg");
     report_.statistics.volume_mm3 = quality_.volume_mm3;
     report_.statistics.dihedral_degrees = quality_.dihedrals;
     report_.statistics.radius_edge = quality_.ratios;
     report_.statistics.edge_mm = quality_.edges;
+  }
+
+  void check_gradation() {
+    if (!bounds_.grade || !bounds_.size || !(*bounds_.grade > 0)) return;
+    const check::GradedBound bound{*bounds_.size, *bounds_.grade};
+    builder_.bounded("graded cell size",
+                     check::measure_gradation(points_, tets_->tets, triangles_, bound, precision_), 1.0,
+                     "of the bound", "at the circumcentre: size + grade * (distance to boundary nodes + size / 2)");
   }
 
   void check_voxels() {

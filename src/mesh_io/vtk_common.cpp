@@ -13,6 +13,7 @@ constexpr NumberField kNumbers[] = {
     {"delvox_radius_edge", [](MeshInfo& i) -> std::optional<double>& { return i.promises.radius_edge; }},
     {"delvox_size", [](MeshInfo& i) -> std::optional<double>& { return i.promises.size; }},
     {"delvox_cell_size", [](MeshInfo& i) -> std::optional<double>& { return i.promises.cell_size; }},
+    {"delvox_grade", [](MeshInfo& i) -> std::optional<double>& { return i.promises.grade; }},
     {"delvox_max_deviation", [](MeshInfo& i) -> std::optional<double>& { return i.promises.max_deviation; }},
     {"delvox_min_dihedral_degrees",
      [](MeshInfo& i) -> std::optional<double>& { return i.promises.min_dihedral_degrees; }},

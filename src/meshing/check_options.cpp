@@ -24,6 +24,7 @@ void check_criteria(const TetCriteria& criteria) {
                       ": refinement ends for bounds of 2 and more only; choose at least 2");
   }
   if (!(criteria.cell_size.minimum() > 0)) throw OptionError("cell-size must be positive");
+  if (!(criteria.grade >= 0)) throw OptionError("grade must not be negative");
 }
 
 Promises promises_of(const SurfaceCriteria& criteria) {
@@ -38,6 +39,7 @@ Promises promises_of(const SurfaceCriteria& surface, const TetCriteria& tets) {
   Promises promises = promises_of(surface);
   promises.radius_edge = tets.radius_edge;
   promises.cell_size = tets.cell_size.maximum();
+  if (tets.grade > 0) promises.grade = tets.grade;
   return promises;
 }
 

@@ -72,7 +72,7 @@ Forecast forecast_surface(const Oracle& oracle, const SurfaceCriteria& criteria)
 
 Forecast forecast_tets(const Oracle& oracle, const SurfaceCriteria& surface, const TetCriteria& tets) {
   const Costs& costs = tets.cell_size.constant() ? kTetCosts : kVaryingTetCosts;
-  return forecast(costs, measure_domain(oracle, surface.size, &tets.cell_size));
+  return forecast(costs, measure_domain(oracle, surface.size, &tets));
 }
 
 }  // namespace delvox

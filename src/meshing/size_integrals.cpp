@@ -30,28 +30,32 @@ struct Cube {
   double area() const { return norm(up + down); }
 
   double size, cell_size;
+  bool graded = false;  ///< at the surface the cell size is the size then, however large it is in the middle
   double inside_mm3 = 0, narrowest_patch = std::numeric_limits<double>::infinity();
   Vector3 up, down;
 };
 
-void add_to(SizeIntegrals& sums, double area, double inside_mm3, double size, double cell_size) {
+void add_to(SizeIntegrals& sums, const Cube& cube, double size, double cell_size) {
+  const double area = cube.area();
   sums.surface += area / (size * size);
   if (!(cell_size > 0)) return;
-  if (size < cell_size) sums.graded += (1 - size / cell_size) * area / (size * size);
-  const double volume = inside_mm3 / (cell_size * cell_size * cell_size);
+  if (size < cell_size && !cube.graded) sums.graded += (1 - size / cell_size) * area / (size * size);
+  const double volume = cube.inside_mm3 / (cell_size * cell_size * cell_size);
   sums.volume += volume;
   sums.deep += volume - kShellDepth * area / (cell_size * cell_size);  // all of the shell is subtracted in the end
 }
 
 class Measurer {
  public:
-  Measurer(const SizeField& size, const SizeField* cell_size) : size_(size), cell_size_(cell_size) {}
+  Measurer(const Oracle& oracle, const SizeField& size, const TetCriteria* tets)
+      : oracle_(oracle), size_(size), tets_(tets) {}
 
   void add(const DomainPatch& patch) {
-    const double wanted = size_(patch.center), cell_size = cell_size_ != nullptr ? (*cell_size_)(patch.center) : 0;
+    const double wanted = size_(patch.center), cell_size = cell_size_in(patch);
     Cube cube(cell_size > 0 ? std::min(wanted, cell_size) : wanted, cell_size);
     cube.add(patch);
-    add_to(result_.wanted, cube.area(), patch.inside_mm3, cube.size, cell_size);
+    cube.graded = tets_ != nullptr && tets_->grade > 0;
+    add_to(result_.wanted, cube, cube.size, cell_size);
     if (cube.area() > 0)
       result_.samples += cube.area() * (kVoxelsPerPatch * kVoxelsPerPatch) / (patch.width * patch.width);
     if (cube.size > patch.width) {
@@ -68,6 +72,25 @@ class Measurer {
   }
 
  private:
+  /// The one that gives as many cells as those in the inside of the patch do; 0 if there are none.
+  double cell_size_in(const DomainPatch& patch) const {
+    if (tets_ == nullptr) return 0;
+    const SizeField& cell_size = tets_->cell_size;
+    if (cell_size.constant()) return cell_size.maximum();
+    double density = 0;
+    int samples = 0;
+    for (int octant = 0; octant < 8; ++octant) {
+      const double quarter = 0.25 * patch.width;
+      const Vector3 step{octant & 1 ? quarter : -quarter, octant & 2 ? quarter : -quarter,
+                         octant & 4 ? quarter : -quarter};
+      const Point3 p = patch.center + step;
+      if (oracle_.label(p) == 0) continue;
+      density += std::pow(cell_size(p), -3);
+      ++samples;
+    }
+    return samples > 0 ? std::cbrt(samples / density) : cell_size(patch.center);
+  }
+
   /// The cube about as wide as the size that holds a point: sheets that face each other in it are closer than that.
   Cube& cube_around(const Point3& p, const Cube& sizes) {
     if (sizes.size != last_size_) {  // few sizes come often
@@ -85,6 +108,7 @@ class Measurer {
     if (number == FlatHash::kAbsent) {
       number = static_cast<std::uint32_t>(cubes_.size());
       cubes_.emplace_back(sizes.size, sizes.cell_size);
+      cubes_.back().graded = sizes.graded;
     }
     return cubes_[number];
   }
@@ -97,11 +121,12 @@ class Measurer {
       size = std::min(size, thickness);
       cell_size = std::min(cell_size, thickness);
     }
-    add_to(result_.resolved, area, cube.inside_mm3, size, cell_size);
+    add_to(result_.resolved, cube, size, cell_size);
   }
 
+  const Oracle& oracle_;
   const SizeField& size_;
-  const SizeField* cell_size_;
+  const TetCriteria* tets_;
   double last_size_ = 0, per_mm_ = 1;
   std::int64_t step_ = 0;
   FlatHash numbers_;
@@ -111,8 +136,8 @@ class Measurer {
 
 }  // namespace
 
-MeasuredDomain measure_domain(const Oracle& oracle, const SizeField& size, const SizeField* cell_size) {
-  Measurer measurer(size, cell_size);
+MeasuredDomain measure_domain(const Oracle& oracle, const SizeField& size, const TetCriteria* tets) {
+  Measurer measurer(oracle, size, tets);
   oracle.for_each_patch([&](const DomainPatch& patch) { measurer.add(patch); });
   return measurer.finish();
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "delvox/core/size_field.h"
+#include "delvox/meshing/criteria.h"
 #include "delvox/oracle/oracle.h"
 
 namespace delvox {
@@ -21,7 +21,7 @@ struct MeasuredDomain {
 };
 
 /// All zero if the oracle knows no patches. Where the cell size is less than the size, it counts as the size.
-/// `cell_size` may be null: none, as for surfaces.
-MeasuredDomain measure_domain(const Oracle& oracle, const SizeField& size, const SizeField* cell_size);
+/// `tets` may be null: none, as for surfaces.
+MeasuredDomain measure_domain(const Oracle& oracle, const SizeField& size, const TetCriteria* tets);
 
 }  // namespace delvox

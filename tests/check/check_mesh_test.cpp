@@ -346,6 +346,25 @@ TEST(CheckMesh, EachNumericBoundIsHeldToTheMesh) {
   EXPECT_EQ(with(&Promises::min_dihedral_degrees, 45.1), Names{"dihedral"});
 }
 
+// Cubes of edge 1 in five layers, tets of circumradius 0.87, triangles of 0.71.
+TEST(CheckMesh, CircumradiiMayGrowWithDepthAsTheGradeSaysAndNoFaster) {
+  const TetMesh mesh = cube_mesh(5);
+  const auto with = [&](double size, double grade) {
+    CheckOptions options;
+    options.bounds = Promises{};
+    options.bounds->size = size;
+    options.bounds->grade = grade;
+    return check_mesh(mesh, options);
+  };
+  EXPECT_EQ(failures(with(0.71, 0.2)), Names{});
+  const CheckReport broken = with(0.71, 0.1);  // 0.71 * 1.05 + 0.1 * 0.87 at the surface
+  EXPECT_EQ(failures(broken), Names{"graded cell size"});
+  const Check& check = *broken.find("graded cell size");
+  EXPECT_NEAR(check.measured, std::sqrt(0.75) / (0.71 * 1.05 + 0.1 * std::sqrt(0.75)), 1e-9);
+  EXPECT_GT(check.violations, 100u);
+  EXPECT_LT(check.violations, mesh.tets.size());  // deep inside the bound is larger
+}
+
 TEST(CheckMesh, CoordinateErrorOfTheFormatIsForgivenAndNoMore) {
   // An equilateral triangle's angle just misses 60 once its coordinates are rounded to single precision.
   SurfaceMesh mesh = tetrahedron({100, 0, 0}, {101, 0, 0}, {100.5, std::sqrt(0.75), 0}, {100.5, 0.3, 0.8});

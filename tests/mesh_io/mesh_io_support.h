@@ -81,6 +81,7 @@ inline SurfaceMesh awkward_surface() {
   mesh.info = {};
   mesh.info.frame = Frame::kRas;
   mesh.info.promises.cell_size = 1.5;
+  mesh.info.promises.grade = 0.3;
   mesh.info.promises.max_deviation = 0.1;
   mesh.info.open_border = true;
   return mesh;

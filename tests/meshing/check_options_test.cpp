@@ -52,6 +52,7 @@ TEST(CheckOptions, TetCriteriaUnderWhichRefinementNeedNotEndAreRefused) {
   std::vector<std::function<void(TetCriteria&)>> bad;
   for (double value : {1.9, 1.999999, 0.0, -2.0, kNan}) bad.push_back([=](TetCriteria& c) { c.radius_edge = value; });
   for (double value : {0.0, -1.0, kNan}) bad.push_back([=](TetCriteria& c) { c.cell_size = value; });
+  for (double value : {-0.1, kNan}) bad.push_back([=](TetCriteria& c) { c.grade = value; });
   for (std::size_t i = 0; i < bad.size(); ++i) {
     DelTetSurfOptions options;
     bad[i](options.tets);

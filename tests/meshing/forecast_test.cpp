@@ -6,6 +6,7 @@
 
 #include "delvox/meshing/delsurf.h"
 #include "delvox/meshing/deltetsurf.h"
+#include "delvox/meshing/graded_size.h"
 #include "delvox/oracle/isosurface_oracle.h"
 #include "meshing/size_integrals.h"
 #include "phantom_cases.h"
@@ -68,6 +69,21 @@ TEST_P(ForecastOnPhantoms, IsWithinAQuarterOfTheMeshes) {
   EXPECT_GT(forecast.likely.seconds, 0);
 }
 
+TEST_P(ForecastOnPhantoms, KnowsTetsThatGrowWithDepth) {
+  const PhantomCase& c = GetParam();
+  const auto oracle = oracle_of(c);
+  RunReport report;
+  const SurfaceCriteria surface = surface_of(c.size);
+  const DepthField depth(*oracle, c.size);
+  for (const double grade : {0.1, 0.5}) {
+    const TetCriteria tets = graded({2, Box3::kInfinity}, c.size, depth, grade);
+    const TetMesh mesh = deltetsurf(*oracle, {surface, tets, {}}, report);
+    const Forecast forecast = forecast_tets(*oracle, surface, tets);
+    EXPECT_NEAR(forecast.likely.vertices / static_cast<double>(mesh.points.size()), 1, 0.3) << grade;
+    EXPECT_NEAR(forecast.likely.tets / static_cast<double>(mesh.tets.size()), 1, 0.35) << grade;
+  }
+}
+
 TEST(Forecast, GrowsWithTheCubeOfFinenessInsideAndItsSquareOnTheSurface) {
   const auto oracle = oracle_of({"sphere", test::cubic_image(48), 1});
   const Forecast coarse = forecast_of(*oracle, 0.2, 0.2), fine = forecast_of(*oracle, 0.1, 0.1);
@@ -109,7 +125,8 @@ TEST(Forecast, OneSheetOfSurfaceIsNotThinHoweverItLies) {
     const PhantomCase c{kind, phantom_defaults(kind), 1};
     const auto oracle = oracle_of(c);
     const SizeField size = 4;
-    const MeasuredDomain measured = measure_domain(*oracle, size, &size);
+    const TetCriteria tets{2, size};
+    const MeasuredDomain measured = measure_domain(*oracle, size, &tets);
     EXPECT_NEAR(measured.resolved.surface / measured.wanted.surface, 1, 0.1) << kind;
     EXPECT_NEAR(measured.resolved.volume / measured.wanted.volume, 1, 0.1) << kind;
   }

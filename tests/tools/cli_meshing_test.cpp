@@ -224,6 +224,37 @@ TEST_F(CliMeshing, AVolumeCanBeTheSizeField) {
   EXPECT_EQ(run_delvox({"tet", volume, "--size", volume, "-o", folder_ / "bad.vtu", "--quiet"}).code, 3);
 }
 
+TEST_F(CliMeshing, TetsGrowWithDepthUpToTheCellSize) {
+  const std::string volume = phantom("ellipsoid", {"--spacing", "1,1,2"}), out = folder_ / "mesh.vtu";
+  const std::vector<std::string> options{"--crop", "10:54,10:64,8:64", "--size", "1.5", "-o", out};
+  const auto tets_with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {"tet", volume});
+    more.insert(more.end(), options.begin(), options.end());
+    const json report = run(more);
+    EXPECT_TRUE(report["check"]["all_hold"].get<bool>());
+    return report["check"]["statistics"]["tets"].get<std::size_t>();
+  };
+  const std::size_t even = tets_with({}), growing = tets_with({"--grade", "0.4"});
+  EXPECT_LT(growing, even / 2);
+  const Outcome check = run_delvox({"check", out});
+  EXPECT_EQ(check.code, 0) << check.out;
+  EXPECT_NE(check.out.find("graded cell size"), std::string::npos) << check.out;
+  const std::size_t capped = tets_with({"--grade", "0.4", "--cell-size", "2"});
+  EXPECT_GT(capped, growing);
+  EXPECT_LT(capped, even);
+  EXPECT_EQ(std::get<TetMesh>(read_mesh(out).mesh).info.promises.cell_size, 2);
+  EXPECT_LT(tets_with({"--below", "--grade", "0.4"}), tets_with({"--below"}));  // what surrounds it
+  EXPECT_EQ(tets_with({"--grade", "0"}), even);
+  EXPECT_EQ(run_delvox({"tet", volume, "--grade", "1.5", "-o", out, "--quiet"}).code, 2);
+  EXPECT_EQ(run_delvox({"surface", volume, "--grade", "0.5", "-o", out, "--quiet"}).code, 2);
+}
+
+TEST_F(CliMeshing, TetsThatGrowCanBeAskedForByTheirNumber) {
+  const json report = run({"tet", phantom("sphere"), "--tets", "20000", "--grade", "0.3", "-o", folder_ / "mesh.vtu"});
+  EXPECT_NEAR(report["check"]["statistics"]["tets"].get<double>(), 20000, 0.04 * 20000);
+  EXPECT_EQ(report["mesh"]["promises"]["grade"], 0.3);
+}
+
 TEST_F(CliMeshing, SmallComponentsAreTakenOutAndCounted) {
   const std::string volume = phantom("noisy-sphere");
   const json report = run({"tet", volume, "--iso", "otsu", "-o", folder_ / "mesh.vtu"});

@@ -20,6 +20,7 @@ inline constexpr const char* kSamples = "/usr/share/doc/libcgal-dev/data.tar.gz"
 struct Aim {
   double size;       ///< mm
   std::size_t tets;  ///< about so many
+  double grade = 0;
 };
 
 struct Scan {
@@ -55,12 +56,13 @@ inline std::vector<std::string> joined(std::vector<std::string> a, const std::ve
 /// a dihedral angle below 15 degrees, and each that has is listed.
 inline void expect_promises_held(const std::string& volume, const std::vector<std::string>& options, const Aim& aim,
                                  const TemporaryFolder& folder) {
-  SCOPED_TRACE(volume + " at size " + std::to_string(aim.size));
+  SCOPED_TRACE(volume + " at size " + std::to_string(aim.size) + ", grade " + std::to_string(aim.grade));
   const std::string first = folder / "first.vtu", second = folder / "second.vtu";
   const std::string report_path = folder / "report.json";
   const auto mesh = [&](const std::string& out) {
-    return run_delvox(joined({"tet", volume, "--size", std::to_string(aim.size), "-o", out, "--quiet", "--report",
-                              report_path}, options));
+    return run_delvox(joined({"tet", volume, "--size", std::to_string(aim.size), "--grade", std::to_string(aim.grade),
+                              "-o", out, "--quiet", "--report", report_path},
+                             options));
   };
   const Outcome run = mesh(first);
   ASSERT_EQ(run.code, 0) << run.err;

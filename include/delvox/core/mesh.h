@@ -64,6 +64,7 @@ struct Promises {
   std::optional<double> radius_edge;           ///< largest circumradius / shortest edge of a tet
   std::optional<double> size;                  ///< largest surface Delaunay ball radius, mm
   std::optional<double> cell_size;             ///< largest circumradius of a tet, mm
+  std::optional<double> grade;                 ///< circumradius of a tet beyond `size`, per mm of depth
   std::optional<double> max_deviation;         ///< circumcentre of triangle to surface ball centre, mm
   std::optional<double> min_dihedral_degrees;  ///< smallest dihedral angle of a tet
   friend bool operator==(const Promises&, const Promises&) = default;

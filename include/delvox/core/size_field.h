@@ -25,4 +25,11 @@ class SizeField {
   double minimum_, maximum_;
 };
 
+/// A size field `factor` times as large. pre: factor > 0.
+inline SizeField scaled(const SizeField& size, double factor) {
+  if (size.constant()) return SizeField(factor * size.maximum());
+  return SizeField([size, factor](const Point3& p) { return factor * size(p); }, factor * size.minimum(),
+                   factor * size.maximum());
+}
+
 }  // namespace delvox

@@ -20,6 +20,7 @@ struct SurfaceCriteria {
 struct TetCriteria {
   double radius_edge = 2;            ///< at least 2 (theorem 14.15)
   SizeField cell_size = 1.0;         ///< upper bound on circumradii
+  double grade = 0;                  ///< what it grows by per mm of depth, if graded() made it (graded_size.h)
 };
 
 }  // namespace delvox
