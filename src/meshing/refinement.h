@@ -149,7 +149,6 @@ class Refinement {
 
   RefinementQueues queues_;
   std::vector<RefinementLane> lanes_;
-  bool tets_wait_ = false;  // for facets of other lanes
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
   LandmarkWatch watch_;

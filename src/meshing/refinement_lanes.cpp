@@ -99,9 +99,6 @@ void Refinement::run_lanes(RefinementQueues& aside) {
   while (2 * busy > lanes && !budget_.exhausted()) {
     const std::uint32_t first_claim = delaunay_.new_claims(static_cast<std::uint32_t>(lanes));
     for (std::size_t i = 0; i < lanes; ++i) lanes_[i].lane.claim = first_claim + static_cast<std::uint32_t>(i);
-    // As for one lane: no tet's turn comes as long as a facet waits.
-    tets_wait_ = std::any_of(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(lanes),
-                             [](const auto& lane) { return lane.queues.facets_waiting() > 0; });
     for_each_lane([&](RefinementLane& lane) { look(lane, lane.queues, false); });
     keep_to_budget(lanes);
     for (std::size_t i = 0; i < lanes; ++i) furnish(lanes_[i]);
@@ -132,7 +129,6 @@ void Refinement::keep_to_budget(std::size_t lanes) {
 void Refinement::run_alone(std::size_t at_least) {
   if (lanes_.empty()) lanes_.resize(1);
   RefinementLane& lane = lanes_.front();
-  tets_wait_ = false;
   for (std::size_t done = 0; queues_.waiting() > 0; ++done) {
     if (done >= at_least && lanes_for(queues_.waiting()) > 1) break;
     lane.lane.claim = delaunay_.new_claims(1);
@@ -175,7 +171,7 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
   while (queues.facets_waiting() > 0 && !lane.insertion && lane.judged.size() < kMostJudged) {
     look_at_facet(lane, queues, worker, alone);
   }
-  while (!tets_wait_ && lane.judged.empty() && queues.facets_waiting() == 0 && !queues.tets.empty() && !lane.insertion) {
+  while (lane.judged.empty() && queues.facets_waiting() == 0 && !queues.tets.empty() && !lane.insertion) {
     look_at_tet(lane, queues, worker, alone);
   }
   for (const auto& judged : lane.judged) delaunay_.claim(judged.waiting.facet, lane.lane.claim);
