@@ -35,6 +35,9 @@ void check_output(const std::string& path, const std::filesystem::path& input);
 /// Writes the mesh to every path, and says so.
 void write_mesh_outputs(const Mesh& mesh, const std::vector<std::string>& paths, const Console& console);
 
+/// The surface itself, or the boundary of the tets.
+SurfaceMesh surface_of(const Mesh& mesh);
+
 /// "12,345 tets, 2,345 triangles, 6,789 points".
 std::string describe_counts(const Mesh& mesh);
 

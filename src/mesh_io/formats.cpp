@@ -166,6 +166,8 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& path) {
   }
 }
 
+bool is_mesh_path(const std::filesystem::path& path) { return find_format(path) != nullptr; }
+
 MeshFile read_mesh(const std::filesystem::path& path) {
   const Format* format = find_format(path);
   if (format == nullptr) throw InputError(unknown_extension(path));
