@@ -19,7 +19,8 @@ namespace {
 constexpr Verb kVerbs[] = {
     {"info", "VOLUME", "what is in this scan, which isovalues make sense", run_info},
     {"surface", "VOLUME -o MESH", "triangle mesh of an isosurface, or of a formula (DelSurf)", run_surface},
-    {"tet", "VOLUME -o MESH", "tetrahedral mesh of what it encloses (DelTetSurf)", run_tet},
+    {"remesh", "SURFACE -o MESH", "new triangle mesh of a closed polygon surface (SurfRemesh)", run_remesh},
+    {"tet", "INPUT -o MESH", "tetrahedral mesh of what an isosurface, a polygon surface or a formula encloses", run_tet},
     {"check", "MESH...", "is a mesh what it promises; how far is it from the voxels", run_check},
     {"convert", "MESH -o OUT", "between mesh formats", run_convert},
     {"phantom", "KIND -o VOLUME", "test volumes with known answers", run_phantom},

@@ -152,6 +152,11 @@ void write_mesh_outputs(const Mesh& mesh, const std::vector<std::string>& paths,
   }
 }
 
+SurfaceMesh surface_of(const Mesh& mesh) {
+  const auto* tets = std::get_if<TetMesh>(&mesh);
+  return tets != nullptr ? boundary_surface(*tets) : std::get<SurfaceMesh>(mesh);
+}
+
 std::string describe_counts(const Mesh& mesh) {
   if (const auto* tets = std::get_if<TetMesh>(&mesh)) {
     const std::string order = tets->mid_nodes.empty() ? "" : " of second order";

@@ -55,6 +55,9 @@ Analysis read_analysis(const MeshOutputOptions& options);
 void write_mesh_outputs(const Mesh& mesh, const std::vector<std::string>& paths, const Console& console,
                         const std::optional<StaticDeck>& deck = std::nullopt);
 
+/// The surface itself, or the boundary of the tets.
+SurfaceMesh surface_of(const Mesh& mesh);
+
 /// "12,345 tets, 2,345 triangles, 6,789 points".
 std::string describe_counts(const Mesh& mesh);
 

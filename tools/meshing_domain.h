@@ -52,6 +52,8 @@ class MeshingDomain {
   virtual void finish(Mesh& mesh) const = 0;
   /// What was left out of the input for the last oracle; empty if nothing was.
   virtual std::string left_out() const { return {}; }
+  /// What the mesh, as it was checked, lacks of the input though every promise holds, if the oracle has not noted that.
+  virtual std::optional<Unmet> shortfall(const CheckReport&) const { return std::nullopt; }
   /// What to do about promises that do not hold; empty if there is nothing better than the usual.
   virtual std::string advice() const { return {}; }
   /// What could be given in place of the options that did not fit, "--crop or --resample the volume".
@@ -62,9 +64,11 @@ class MeshingDomain {
   virtual Json report() const = 0;
 };
 
-/// The isosurface of a volume.
+/// The isosurface of a volume. Keeps a reference to the options.
 std::unique_ptr<MeshingDomain> make_volume_domain(const MeshingOptions& options);
 /// The domain of --implicit and --box. Throws OptionError: the formula or the box does not parse.
 std::unique_ptr<MeshingDomain> make_formula_domain(const MeshingOptions& options);
+/// What a polygon surface encloses. Keeps a reference to the options.
+std::unique_ptr<MeshingDomain> make_polygon_domain(const MeshingOptions& options);
 
 }  // namespace delvox::tools

@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "delvox/core/errors.h"
+#include "delvox/mesh_io/read_mesh.h"
 #include "validators.h"
 
 namespace delvox::tools {
@@ -10,8 +12,8 @@ namespace {
 void add_size_options(CLI::App& app, MeshingOptions& options) {
   auto* size = app.add_option("--size", options.size,
                               "Upper bound on the radii of surface Delaunay balls, mm: a number, or a volume file as "
-                              "size field (default: 1/60 of the diagonal of the organ's box, at least 1.5 voxel; of a "
-                              "formula's --box 1/40)");
+                              "size field (default: 1/60 of the diagonal of the box around what is meshed, of volumes "
+                              "at least 1.5 voxel; 1/40 of that of a formula's --box)");
   size->type_name("S");
   if (options.kind == MeshKind::kSurface) return;
   app.add_option("--tets", options.tets, "Find the size that gives about this many tets")
@@ -51,7 +53,7 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
       ->type_name("MM");
   app.add_option("--min-ball-radius", options.min_ball_radius,
                  "Topology and deviation leave surface balls this small alone, mm (default: 0.0001 voxel; for formulas "
-                 "0.001 size)")
+                 "and polygon surfaces 0.001 size)")
       ->check(finite_number(Zero::kAllowed))
       ->type_name("MM");
 }
@@ -85,29 +87,36 @@ void add_formula_options(CLI::App& app, MeshingOptions& options) {
 }
 
 /// What makes sense for volumes only.
+constexpr const char* kOfVolumes[] = {"--iso",      "--below",         "--border",        "--spacing", "--volume-index",
+                                      "--crop",     "--resample",      "--smooth",        "--largest", "--min-component",
+                                      "--fill-cavities", "--hu-density", "--modulus", "--material-bins", "--peel",
+                                      "--poisson"};
+
 void exclude_volume_options(CLI::App& app) {
-  for (const char* name : {"VOLUME", "--iso", "--below", "--border", "--spacing", "--volume-index", "--crop",
-                           "--resample", "--smooth", "--largest", "--min-component", "--fill-cavities"}) {
-    if (CLI::Option* option = app.get_option_no_throw(name)) app.get_option("--implicit")->excludes(option);
+  CLI::Option* implicit = app.get_option("--implicit");
+  const char* input = app.get_option_no_throw("VOLUME") != nullptr ? "VOLUME" : "INPUT";
+  implicit->excludes(app.get_option(input));
+  for (const char* name : kOfVolumes) {
+    if (CLI::Option* option = app.get_option_no_throw(name)) implicit->excludes(option);
   }
 }
 
-}  // namespace
+constexpr const char* kVolumes = ".nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices";
+constexpr const char* kMeshes = ".stl .ply .off .obj .vtu .vtk .mesh .msh .inp .feb .bdf .nas .unv "
+                                "(of tets: their boundary)";
 
-void add_meshing_options(CLI::App& app, MeshingOptions& options) {
-  app.add_option("VOLUME", options.volume.path,
-                 "The scan: .nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices");
-  add_formula_options(app, options);
-  add_mesh_output_options(app, options.output);
-  if (options.kind == MeshKind::kTets) {
-    add_tet_output_options(app, options.output);
-    add_image_material_options(app, options.image_materials);
-  } else {
-    add_unit_option(app, options.output.unit);
+void add_input(CLI::App& app, MeshingOptions& options) {
+  std::string name = "VOLUME", text = std::string("The scan: ") + kVolumes;
+  if (options.input == InputKind::kPolygons) {
+    name = "SURFACE", text = std::string("A closed polygon surface: ") + kMeshes;
+  } else if (options.input == InputKind::kEither) {
+    name = "INPUT", text += std::string("; or a closed polygon surface: ") + kMeshes;
   }
+  app.add_option(name, options.volume.path, text)->required(options.input == InputKind::kPolygons);
+}
+
+void add_volume_options(CLI::App& app, MeshingOptions& options) {
   add_isovalue_options(app, options.isosurface);
-  add_size_options(app, options);
-  add_shape_options(app, options);
   if (options.kind == MeshKind::kSurface) {
     app.add_option("--border", options.border,
                    "Where the organ is cut by the image edge: close the surface there, or leave it open")
@@ -118,12 +127,44 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   add_reading_options(app, options.volume);
   add_preprocessing_options(app, options.volume);
   add_component_options(app, options.isosurface);
+}
+
+}  // namespace
+
+void add_meshing_options(CLI::App& app, MeshingOptions& options) {
+  add_input(app, options);
+  if (options.input != InputKind::kPolygons) add_formula_options(app, options);
+  add_mesh_output_options(app, options.output);
+  if (options.kind == MeshKind::kTets) {
+    add_tet_output_options(app, options.output);
+    if (options.input != InputKind::kPolygons) add_image_material_options(app, options.image_materials);
+  } else {
+    add_unit_option(app, options.output.unit);
+  }
+  add_size_options(app, options);
+  add_shape_options(app, options);
+  if (options.input != InputKind::kPolygons) add_volume_options(app, options);
   add_frame_option(app, options.frame);
-  exclude_volume_options(app);
+  if (options.input != InputKind::kPolygons) exclude_volume_options(app);
   add_limit_options(app, options);
   app.add_option("--report", options.report, "Write what was done and checked to a JSON file")->type_name("FILE.json");
   add_config_option(app);
   add_console_options(app, options.console, JsonFlag::kOffered);
+}
+
+void decide_input(const CLI::App& app, MeshingOptions& options) {
+  const bool polygons = is_mesh_path(options.volume.path);
+  if (options.input == InputKind::kVolume && polygons) {
+    throw OptionError(options.volume.path + ": is a polygon surface, no volume; delvox remesh is for those");
+  }
+  if (options.input != InputKind::kEither) return;
+  options.input = polygons ? InputKind::kPolygons : InputKind::kVolume;
+  if (!polygons) return;
+  for (const char* name : kOfVolumes) {
+    const CLI::Option* option = app.get_option_no_throw(name);
+    if (option == nullptr || option->count() == 0) continue;
+    throw OptionError(std::string(name) + ": is for volumes, and " + options.volume.path + " is a polygon surface");
+  }
 }
 
 }  // namespace delvox::tools

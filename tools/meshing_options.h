@@ -14,13 +14,15 @@
 namespace delvox::tools {
 
 enum class MeshKind { kSurface, kTets };
+enum class InputKind { kVolume, kPolygons, kEither };
 
 inline constexpr double kDefaultMinDihedralDegrees = 15;
 
-/// Everything that `surface` and `tet` take. The initial values are the defaults that --help shows.
+/// Everything that `surface`, `remesh` and `tet` take. The initial values are the defaults that --help shows.
 struct MeshingOptions {
   MeshKind kind = MeshKind::kTets;
-  VolumeInputOptions volume;
+  InputKind input = InputKind::kVolume;
+  VolumeInputOptions volume;             ///< its path names the input, whatever its kind
   IsosurfaceOptions isosurface;
   std::string implicit;                  ///< a formula in place of a volume; empty: none
   std::string box;                       ///< "x0:x1,y0:y1,z0:z1", where the formula is looked at
@@ -34,7 +36,7 @@ struct MeshingOptions {
   std::optional<double> max_deviation;   ///< mm
   std::optional<double> min_ball_radius;  ///< mm; default: the domain's
   std::string border = "close";          ///< close or open
-  std::string frame;                     ///< ras, lps, or empty: the volume's own
+  std::string frame;                     ///< ras, lps, or empty: the input's own
   RunLimits limits;
   std::string max_memory;                ///< refuse to begin if more is forecast: "4G"; empty: no limit
   MeshOutputOptions output;
@@ -43,7 +45,11 @@ struct MeshingOptions {
   ConsoleOptions console;
 };
 
-/// Binds all flags of the verb to `options`. pre: options.kind is set.
+/// Binds all flags of the verb to `options`. pre: options.kind and options.input are set.
 void add_meshing_options(CLI::App& app, MeshingOptions& options);
+
+/// Once arguments are parsed: decides by its extension what the input is, where it may be either. Throws OptionError if
+/// a flag was given that has no sense for it, or if another verb is for it.
+void decide_input(const CLI::App& app, MeshingOptions& options);
 
 }  // namespace delvox::tools

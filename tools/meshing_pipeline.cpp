@@ -35,6 +35,7 @@ std::unique_ptr<MeshingDomain> make_domain(const MeshingOptions& options) {
   if (options.volume.path.empty()) {
     throw OptionError("what to mesh? Give a VOLUME, or --implicit and --box; see --help");
   }
+  if (options.input == InputKind::kPolygons) return make_polygon_domain(options);
   return make_volume_domain(options);
 }
 
@@ -385,6 +386,9 @@ void MeshingRun::check() {
   CheckOptions cheap;
   cheap.level = CheckLevel::kCheap;
   check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, cheap); });
+  if (run_report_.succeeded()) {
+    if (auto unmet = domain_->shortfall(check_report_)) run_report_.unmet.push_back(std::move(*unmet));
+  }
   verdict_ = verdict(run_report_, check_report_);
   if (!verdict_.empty() && run_report_.stop == StopReason::kFinished) {
     verdict_ = verdict(run_report_, check_report_, domain_->advice());
@@ -455,13 +459,15 @@ void MeshingRun::tell(Json json) const {
 
 }  // namespace
 
-void run_meshing(const Verb& verb, const Arguments& arguments, MeshKind kind) {
+void run_meshing(const Verb& verb, const Arguments& arguments, MeshKind kind, InputKind input) {
   CLI::App app(std::string(verb.summary) + "\n", std::string("delvox ") + verb.name);
   MeshingOptions options;
   options.kind = kind;
+  options.input = input;
   add_meshing_options(app, options);
   const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
+  decide_input(app, options);
   Json report = run_header(verb, arguments);
   report["options"] = options_json(app);
   MeshingRun(options).run(std::move(report));

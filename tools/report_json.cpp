@@ -105,11 +105,14 @@ Json to_json(const VoxelComparison& c) {
           {"voxel_cavities", c.voxels.cavities},
           {"voxel_euler", c.voxels.euler},
           {"voxel_volume_mm3", c.voxel_volume_mm3},
-          {"volume_ratio", c.volume_ratio},
-          {"mesh_to_surface_max_mm", c.mesh_to_surface_max_mm},
-          {"mesh_to_surface_mean_mm", c.mesh_to_surface_mean_mm},
-          {"surface_to_mesh_max_mm", c.surface_to_mesh_max_mm},
-          {"surface_to_mesh_mean_mm", c.surface_to_mesh_mean_mm}};
+          {"volume_ratio", c.volume_ratio}};
+}
+
+void add_to(Json& json, const SurfaceDistances& d) {
+  json.update({{"mesh_to_surface_max_mm", d.mesh_to_surface_max_mm},
+               {"mesh_to_surface_mean_mm", d.mesh_to_surface_mean_mm},
+               {"surface_to_mesh_max_mm", d.surface_to_mesh_max_mm},
+               {"surface_to_mesh_mean_mm", d.surface_to_mesh_mean_mm}});
 }
 
 Json to_json(const Estimate& e) {
@@ -216,7 +219,15 @@ Json to_json(const CheckReport& report) {
   Json checks = Json::array();
   for (const Check& check : report.checks) checks.push_back(to_json(check));
   Json json{{"all_hold", report.all_hold()}, {"checks", std::move(checks)}, {"statistics", to_json(report.statistics)}};
-  if (report.comparison) json["comparison"] = to_json(*report.comparison);
+  if (report.comparison) {
+    json["comparison"] = to_json(*report.comparison);
+    add_to(json["comparison"], report.comparison->distances);
+  }
+  if (report.surface_comparison) {
+    json["surface_comparison"] = {{"surface_components", report.surface_comparison->components},
+                                  {"surface_euler", report.surface_comparison->euler}};
+    add_to(json["surface_comparison"], report.surface_comparison->distances);
+  }
   if (!report.solver_limits.empty()) {
     json["solver_limits"] = Json::array();
     for (const SolverLimit& limit : report.solver_limits) json["solver_limits"].push_back(to_json(limit));

@@ -23,6 +23,7 @@ namespace {
 struct Options {
   std::vector<std::string> meshes;
   VolumeInputOptions volume;
+  std::string surface;
   IsosurfaceOptions isosurface;
   Promises bounds;
   std::string border, frame, report;
@@ -42,11 +43,12 @@ void add_options(CLI::App& app, Options& options) {
       ->required();
   auto* volume = app.add_option("--volume", options.volume.path, "Compare with this volume, preprocessed as below");
   volume->type_name("VOLUME");
+  auto* surface = app.add_option("--surface", options.surface, "Compare with this polygon surface");
+  surface->excludes(volume)->type_name("SURFACE");
   add_isovalue_options(app, options.isosurface);
   app.get_option("--iso")->needs(volume)->default_str("what the mesh carries");
   app.add_flag("--same-topology", options.same_topology,
-               "Components and Euler number must equal those of the volume's isosurface")
-      ->needs(volume);
+               "Components and Euler number must equal those of the volume's isosurface, or of the surface");
   add_bound(app, "--min-angle", options.bounds.min_angle_degrees, "Lower bound on the angles of triangles", "DEG");
   add_bound(app, "--radius-edge", options.bounds.radius_edge, "Upper bound on circumradius / shortest edge", "RATIO");
   add_bound(app, "--cell-size", options.bounds.cell_size, "Upper bound on the circumradii of tets, mm", "MM");
@@ -54,7 +56,8 @@ void add_options(CLI::App& app, Options& options) {
   app.add_option("--border", options.border, "open: the surface may end at the image border (default: as the mesh says)")
       ->check(CLI::IsMember({"close", "open"}))
       ->type_name("HOW");
-  app.add_option("--frame", options.frame, "Patient frame of meshes that state none: ras or lps (default: the volume's)")
+  app.add_option("--frame", options.frame, "Patient frame of meshes that state none: ras or lps (default: that of what they are "
+                 "compared with)")
       ->check(CLI::IsMember({"ras", "lps"}))
       ->type_name("FRAME");
   add_reading_options(app, options.volume);
@@ -101,14 +104,30 @@ Reference reference_for(const std::string& path, const MeshInfo& info, const Vol
   return {surface, filter_volume(volume, surface, options.isosurface, size).volume};
 }
 
-// Carries a mesh to the frame of the volume; a mesh that states no frame is in --frame, or else in the volume's.
-void to_frame_of_volume(Mesh& mesh, Frame of_volume, const Options& options) {
+// Carries a mesh to the frame of what it is compared with; one that states no frame is in --frame, or else in that.
+void to_frame(Frame of_other, Mesh& mesh, const Options& options) {
   Frame own = info_of(mesh).frame;
   if (own == Frame::kUnknown && !options.frame.empty()) own = options.frame == "ras" ? Frame::kRas : Frame::kLps;
-  if (of_volume != Frame::kUnknown) FrameChange(own, of_volume == Frame::kRas ? "ras" : "lps").apply(mesh);
+  if (of_other != Frame::kUnknown) FrameChange(own, of_other == Frame::kRas ? "ras" : "lps").apply(mesh);
 }
 
-CheckReport check_file(const std::string& path, const std::optional<Volume>& volume, const Options& options,
+// What meshes are compared with: one of the two, or nothing.
+struct Original {
+  std::optional<Volume> volume;
+  std::optional<SurfaceMesh> surface;
+};
+
+Original read_original(const Options& options, const Console& console) {
+  Original original;
+  if (!options.volume.path.empty()) {
+    original.volume = load(*open_input(options.volume, options.frame).source);
+    tell_warnings(original.volume->header(), options.volume, console);
+  }
+  if (!options.surface.empty()) original.surface = surface_of(read_mesh(options.surface).mesh);
+  return original;
+}
+
+CheckReport check_file(const std::string& path, const Original& original, const Options& options,
                        const Console& console) {
   MeshFile file = read_mesh(path);
   throw_if_cancelled();
@@ -117,11 +136,15 @@ CheckReport check_file(const std::string& path, const std::optional<Volume>& vol
   check.bounds = bounds_for(info_of(file.mesh), options.bounds);
   if (!options.border.empty()) check.open_border = options.border == "open";
   check.coordinate_error = file.coordinate_error;
-  check.require_voxel_topology = options.same_topology;
+  check.require_same_topology = options.same_topology;
   std::optional<Reference> reference;
-  if (volume) {
+  if (original.surface) {
+    to_frame(original.surface->info.frame, file.mesh, options);
+    check.surface = &*original.surface;
+  }
+  if (const auto& volume = original.volume) {
     reference = reference_for(path, info_of(file.mesh), *volume, options);
-    to_frame_of_volume(file.mesh, volume->header().frame, options);
+    to_frame(volume->header().frame, file.mesh, options);
     check.volume = &reference->volume;
     check.isosurface = reference->surface;
   }
@@ -137,20 +160,19 @@ void run_check(const Verb& verb, const Arguments& arguments) {
   const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
 
+  if (options.same_topology && options.volume.path.empty() && options.surface.empty()) {
+    throw OptionError("--same-topology: as what? Give --volume or --surface");
+  }
   for (const std::string& mesh : options.meshes) check_output(options.report, mesh);
   const Console console(options.console);
-  std::optional<Volume> volume;
-  if (!options.volume.path.empty()) {
-    volume = load(*open_input(options.volume, options.frame).source);
-    tell_warnings(volume->header(), options.volume, console);
-  }
+  const Original original = read_original(options, console);
   Json json = run_header(verb, arguments);
   json["options"] = options_json(app);
   json["meshes"] = Json::array();
   std::string first_fault;
   for (const std::string& path : options.meshes) {
     throw_if_cancelled();
-    const CheckReport report = check_file(path, volume, options, console);
+    const CheckReport report = check_file(path, original, options, console);
     console.result((options.meshes.size() > 1 ? path + "\n" : "") + to_text(report));
     Json result{{"mesh", path}};
     result.update(to_json(report));

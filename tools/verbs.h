@@ -22,6 +22,7 @@ struct Verb {
 
 void run_info(const Verb& verb, const Arguments& arguments);
 void run_surface(const Verb& verb, const Arguments& arguments);
+void run_remesh(const Verb& verb, const Arguments& arguments);
 void run_tet(const Verb& verb, const Arguments& arguments);
 void run_check(const Verb& verb, const Arguments& arguments);
 void run_convert(const Verb& verb, const Arguments& arguments);

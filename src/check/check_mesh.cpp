@@ -11,6 +11,7 @@
 #include "check/report_builder.h"
 #include "check/second_order_checks.h"
 #include "check/solver_limits.h"
+#include "check/surface_checks.h"
 #include "check/surface_topology.h"
 #include "check/tet_topology.h"
 #include "check/voxel_checks.h"
@@ -80,6 +81,7 @@ class MeshChecker {
       builder_.count("no crossing triangles", check::crossing_triangles(points_, triangles_));
       check_voxels();
       if (tets_ != nullptr) measure_for_solvers();
+      if (options_.surface != nullptr) check::check_against_surface(surface_of_mesh(), options_, builder_, report_);
     }
     return std::move(report_);
   }
@@ -231,16 +233,19 @@ class MeshChecker {
       return;
     }
     const Isosurface surface = options_.isosurface.value_or(Isosurface{info_.isovalue.value_or(0), info_.below});
-    const check::SurfaceOfMesh mesh{points_,
-                                    triangles_,
-                                    topology_,
-                                    report_.statistics.volume_mm3,
-                                    bounds_,
-                                    precision_,
-                                    options_.open_border.value_or(info_.open_border),
-                                    info_.isovalue.has_value(),
-                                    curved_nodes_};
-    check::check_against_voxels(mesh, surface, options_, builder_, report_);
+    check::check_against_voxels(surface_of_mesh(), surface, options_, builder_, report_);
+  }
+
+  check::SurfaceOfMesh surface_of_mesh() const {
+    return {points_,
+            triangles_,
+            topology_,
+            report_.statistics.volume_mm3,
+            bounds_,
+            precision_,
+            options_.open_border.value_or(info_.open_border),
+            info_.isovalue.has_value(),
+            curved_nodes_};
   }
 
   const TetMesh* tets_;

@@ -181,6 +181,9 @@ TetShape shape_of(const Point3& a, const Point3& b, const Point3& c, const Point
   s.shortest = std::sqrt(*std::min_element(lengths, lengths + 6));
   s.longest = std::sqrt(*std::max_element(lengths, lengths + 6));
   s.circumradius = norm(uu * vw + vv * wu + ww * uv) / (2 * std::abs(s.six_volumes));
+  // The volume's rounding error is below 1e-15 |u||v||w|: of one smaller than this fewer than nine digits are left.
+  constexpr double kFlat = 1e-6;
+  if (s.six_volumes * s.six_volumes < kFlat * kFlat * uu * vv * ww) s.circumradius = exact_circumradius(a, b, c, d);
   double inverse_norm[4];
   for (int i = 0; i < 4; ++i) inverse_norm[i] = 1 / norm(outward[i]);
   int pair = 0;

@@ -13,4 +13,7 @@ int orientation(const Point3& a, const Point3& b, const Point3& c, const Point3&
 /// Sign of (b - a) x (c - a) in the plane of axes `u` and `v`, exact likewise.
 int planar_orientation(const Point3& a, const Point3& b, const Point3& c, int u, int v);
 
+/// Of a tet, for those so flat that rounding leaves nothing of a quotient by their volume; infinity if it has none.
+double exact_circumradius(const Point3& a, const Point3& b, const Point3& c, const Point3& d);
+
 }  // namespace delvox::check

@@ -76,14 +76,17 @@ std::string text_of(const std::vector<SolverLimit>& limits) {
   return text.empty() ? "what solvers limit (Abaqus, ANSYS): within all limits\n" : "what solvers object to:\n" + text;
 }
 
+std::string text_of(const SurfaceDistances& d, const char* surface) {
+  return format("mesh to %s: max %.4g mm, mean %.4g mm; %s to mesh: max %.4g mm, mean %.4g mm\n", surface,
+                d.mesh_to_surface_max_mm, d.mesh_to_surface_mean_mm, surface, d.surface_to_mesh_max_mm,
+                d.surface_to_mesh_mean_mm);
+}
+
 std::string text_of(const VoxelComparison& c) {
   std::string text = format("voxels: surface components %zu, inside components %zu, cavities %zu, Euler number %ld\n",
                             c.voxels.surface_components, c.voxels.inside_components, c.voxels.cavities, c.voxels.euler);
   text += format("volume of the voxels %.9g mm3, mesh / voxels %.6f\n", c.voxel_volume_mm3, c.volume_ratio);
-  text += format("mesh to isosurface: max %.4g mm, mean %.4g mm; isosurface to mesh: max %.4g mm, mean %.4g mm\n",
-                 c.mesh_to_surface_max_mm, c.mesh_to_surface_mean_mm, c.surface_to_mesh_max_mm,
-                 c.surface_to_mesh_mean_mm);
-  return text;
+  return text + text_of(c.distances, "isosurface");
 }
 
 }  // namespace
@@ -96,6 +99,7 @@ std::string to_text(const CheckReport& report) {
   text += text_of(report.statistics);
   if (!report.solver_limits.empty()) text += text_of(report.solver_limits);
   if (report.comparison) text += text_of(*report.comparison);
+  if (report.surface_comparison) text += text_of(report.surface_comparison->distances, "surface");
   return text + (report.all_hold() ? "every check holds\n" : "NOT every check holds\n");
 }
 

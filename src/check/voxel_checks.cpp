@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "check/surface_checks.h"
 #include "check/triangle_tree.h"
 #include "check/trilinear_field.h"
 
@@ -123,12 +124,12 @@ class VoxelChecker {
       const double reach = 2 * std::max({distance(a, b), distance(b, c), distance(c, a), voxel_mm_});
       for (const auto& w : kSamples) {
         const double d = distance_to_surface_mm(w[0] * a + w[1] * b + w[2] * c, (1 / double_area) * normal, reach);
-        comparison.mesh_to_surface_max_mm = std::max(comparison.mesh_to_surface_max_mm, d);
+        comparison.distances.mesh_to_surface_max_mm = std::max(comparison.distances.mesh_to_surface_max_mm, d);
         weighted += d * double_area;
         area_sum += double_area;
       }
     }
-    comparison.mesh_to_surface_mean_mm = area_sum > 0 ? weighted / area_sum : 0;
+    comparison.distances.mesh_to_surface_mean_mm = area_sum > 0 ? weighted / area_sum : 0;
   }
 
   void measure_surface_to_mesh(VoxelComparison& comparison) const {
@@ -140,11 +141,11 @@ class VoxelChecker {
     double sum = 0;
     field_.for_each_grid_crossing(1 + crossings / kEnough, [&](const Point3& p) {
       const double d = tree.distance(to_world_(p));
-      comparison.surface_to_mesh_max_mm = std::max(comparison.surface_to_mesh_max_mm, d);
+      comparison.distances.surface_to_mesh_max_mm = std::max(comparison.distances.surface_to_mesh_max_mm, d);
       sum += d;
       ++measured;
     });
-    comparison.surface_to_mesh_mean_mm = measured > 0 ? sum / static_cast<double>(measured) : 0;
+    comparison.distances.surface_to_mesh_mean_mm = measured > 0 ? sum / static_cast<double>(measured) : 0;
   }
 
  private:
@@ -203,22 +204,6 @@ class VoxelChecker {
   double voxels_per_mm_ = 0;  // largest along an axis of the world
 };
 
-void check_topology(const SurfaceOfMesh& mesh, const VoxelTopology& voxels, const CheckOptions& options,
-                    ReportBuilder& builder) {
-  const std::size_t components = mesh.topology.components.size();
-  const std::string note = "mesh: " + std::to_string(components) + " components, Euler number " +
-                           std::to_string(mesh.topology.euler) + "; voxels: " +
-                           std::to_string(voxels.surface_components) + ", " + std::to_string(voxels.euler);
-  const bool equal = components == voxels.surface_components && mesh.topology.euler == voxels.euler;
-  if (options.require_voxel_topology) {
-    Tally faults;
-    if (!equal) faults.add(mesh.points[mesh.triangles[0][0]]);
-    builder.count("topology of the voxels", faults, note);
-  } else {
-    builder.not_applicable("topology of the voxels", note + (equal ? " (equal)" : " (different; not required)"));
-  }
-}
-
 }  // namespace
 
 void check_against_voxels(const SurfaceOfMesh& mesh, const Isosurface& surface, const CheckOptions& options,
@@ -233,7 +218,7 @@ void check_against_voxels(const SurfaceOfMesh& mesh, const Isosurface& surface, 
   comparison.volume_ratio = comparison.voxel_volume_mm3 > 0 ? mesh.volume_mm3 / comparison.voxel_volume_mm3 : 0;
   checker.measure_mesh_to_surface(comparison);
   checker.measure_surface_to_mesh(comparison);
-  check_topology(mesh, comparison.voxels, options, builder);
+  compare_topology(mesh, "voxels", comparison.voxels.surface_components, comparison.voxels.euler, options, builder);
   report.comparison = comparison;
 }
 

@@ -175,6 +175,8 @@ void write_deck(const TetMesh& mesh, const StaticDeck& deck, const fs::path& pat
   write_tets(mesh, format, path, &deck);
 }
 
+bool is_mesh_path(const std::filesystem::path& path) { return find_format(path) != nullptr; }
+
 MeshFile read_mesh(const std::filesystem::path& path) {
   const Format* format = find_format(path);
   if (format == nullptr) throw InputError(unknown_extension(path));

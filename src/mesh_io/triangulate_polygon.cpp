@@ -46,11 +46,14 @@ bool cancels_out(std::span<const std::uint32_t> corners, std::span<const Point3>
   return norm(normal) < 1e-12 * turned;
 }
 
-/// Every corner turns the same way, and every triangle of the fan too (which a pentagram fails). Corners in line with
+/// What is no more than this part of a polygon's area is rounding.
+constexpr double kFlat = 1e-12;
+
+/// Every corner turns the same way, and every triangle of a fan too (which a pentagram fails). Corners in line with
 /// their neighbours may seem to turn the other way by rounding.
 bool is_convex(std::span<const std::uint32_t> corners, std::span<const Point3> points, const Vector3& normal) {
   const std::size_t n = corners.size();
-  const double least = -1e-12 * squared_norm(normal);
+  const double least = -kFlat * squared_norm(normal);
   for (std::size_t i = 0; i < n; ++i) {
     const Point3 &a = points[corners[i]], &b = points[corners[(i + 1) % n]], &c = points[corners[(i + 2) % n]];
     if (turn(a, b, c, normal) < least || turn(points[corners[0]], a, b, normal) < least) return false;
@@ -58,25 +61,52 @@ bool is_convex(std::span<const std::uint32_t> corners, std::span<const Point3> p
   return true;
 }
 
+/// The fan around corner `tip`; nothing if a triangle of it would be flat, for corners that lie in line.
+std::vector<Triangle> fan_around(std::span<const std::uint32_t> corners, std::span<const Point3> points,
+                                 std::size_t tip, const Vector3& normal) {
+  const std::size_t n = corners.size();
+  std::vector<Triangle> fan;
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const Triangle t{corners[tip], corners[(tip + i) % n], corners[(tip + i + 1) % n]};
+    if (n > 3 && turn(points[t[0]], points[t[1]], points[t[2]], normal) <= kFlat * squared_norm(normal)) return {};
+    fan.push_back(t);
+  }
+  return fan;
+}
+
+/// Rather not one that holds all the area and leaves corners in line. The number of corners if there is none.
+std::size_t find_ear(std::span<const std::uint32_t> corners, std::span<const Point3> points, const Vector3& normal) {
+  const std::size_t n = corners.size();
+  const double all = dot(normal_of(corners, points), normal);
+  std::size_t found = n;
+  for (std::size_t tip = 0; tip < n; ++tip) {
+    if (!is_ear(corners, points, tip, normal)) continue;
+    const Point3 &a = points[corners[(tip + n - 1) % n]], &b = points[corners[tip]], &c = points[corners[(tip + 1) % n]];
+    const double area = turn(a, b, c, normal);
+    if (area > kFlat * squared_norm(normal) && area < all - kFlat * squared_norm(normal)) return tip;
+    if (found == n) found = tip;
+  }
+  return found;
+}
+
 }  // namespace
 
 std::optional<std::vector<Triangle>> triangulate_polygon(std::span<const std::uint32_t> corners,
                                                          std::span<const Point3> points) {
   if (corners.size() < 3) return std::nullopt;
-  std::vector<Triangle> result;
   const Vector3 normal = normal_of(corners, points);
   if (corners.size() > 3 && cancels_out(corners, points, normal)) return std::nullopt;
   if (corners.size() == 3 || is_convex(corners, points, normal)) {
-    for (std::size_t i = 1; i + 1 < corners.size(); ++i) result.push_back({corners[0], corners[i], corners[i + 1]});
-    return result;
+    for (std::size_t tip = 0; tip < corners.size(); ++tip) {
+      if (auto fan = fan_around(corners, points, tip, normal); !fan.empty()) return fan;
+    }
   }
   if (corners.size() > kMostCornersForEars) return std::nullopt;
+  std::vector<Triangle> result;
   std::vector<std::uint32_t> left(corners.begin(), corners.end());
   while (left.size() > 3) {
-    std::size_t tip = 0;
-    while (tip < left.size() && !is_ear(left, points, tip, normal)) ++tip;
-    if (tip == left.size()) return std::nullopt;
-    const std::size_t n = left.size();
+    const std::size_t n = left.size(), tip = find_ear(left, points, normal);
+    if (tip == n) return std::nullopt;
     result.push_back({left[(tip + n - 1) % n], left[tip], left[(tip + 1) % n]});
     left.erase(left.begin() + static_cast<std::ptrdiff_t>(tip));
   }

@@ -109,7 +109,7 @@ TEST(CheckAgainstVoxels, MeshOnTheIsosurfaceHolds) {
     mesh.info.promises.size = 2.5;
     mesh.info.promises.max_deviation = 0.5;
     CheckOptions options = against(volume);
-    options.require_voxel_topology = true;
+    options.require_same_topology = true;
     const CheckReport report = check_mesh(mesh, options);
     EXPECT_TRUE(report.all_hold()) << to_text(report);
     EXPECT_LT(report.find("nodes on the isosurface")->measured, 1e-6);
@@ -117,10 +117,10 @@ TEST(CheckAgainstVoxels, MeshOnTheIsosurfaceHolds) {
     ASSERT_TRUE(report.comparison.has_value());
     EXPECT_EQ(report.comparison->voxels.euler, 2);
     EXPECT_NEAR(report.comparison->volume_ratio, 1, 0.02);
-    EXPECT_LT(report.comparison->mesh_to_surface_max_mm, 0.35);
-    EXPECT_GT(report.comparison->mesh_to_surface_max_mm, 0.01);
-    EXPECT_LT(report.comparison->surface_to_mesh_max_mm, 0.35);
-    EXPECT_LT(report.comparison->surface_to_mesh_mean_mm, report.comparison->surface_to_mesh_max_mm);
+    EXPECT_LT(report.comparison->distances.mesh_to_surface_max_mm, 0.35);
+    EXPECT_GT(report.comparison->distances.mesh_to_surface_max_mm, 0.01);
+    EXPECT_LT(report.comparison->distances.surface_to_mesh_max_mm, 0.35);
+    EXPECT_LT(report.comparison->distances.surface_to_mesh_mean_mm, report.comparison->distances.surface_to_mesh_max_mm);
   }
 }
 
@@ -156,7 +156,7 @@ TEST(CheckAgainstVoxels, ForeignMeshIsMeasuredButNotHeld) {
   const CheckReport report = check_mesh(mesh, options);
   EXPECT_TRUE(report.all_hold());
   EXPECT_NEAR(report.find("nodes on the isosurface")->measured, 0.5, 0.1);
-  EXPECT_NEAR(report.comparison->surface_to_mesh_max_mm, 0.55, 0.15);
+  EXPECT_NEAR(report.comparison->distances.surface_to_mesh_max_mm, 0.55, 0.15);
   options.node_tolerance_voxels = 0.1;
   EXPECT_EQ(check_mesh(mesh, options).find("nodes on the isosurface")->status, CheckStatus::kFailed);
 }
@@ -186,10 +186,10 @@ TEST(CheckAgainstVoxels, MissingComponentIsNamed) {
   });
   const SurfaceMesh mesh = mesh_on_isosurface(volume);
   CheckOptions options = against(volume);
-  options.require_voxel_topology = true;
+  options.require_same_topology = true;
   const CheckReport report = check_mesh(mesh, options);
   EXPECT_EQ(report.find("topology of the voxels")->status, CheckStatus::kFailed);
-  EXPECT_GT(report.comparison->surface_to_mesh_max_mm, 10);
+  EXPECT_GT(report.comparison->distances.surface_to_mesh_max_mm, 10);
 }
 
 TEST(CheckAgainstVoxels, RimMustLieOnTheImageBorder) {

@@ -60,7 +60,21 @@ TEST(TriangulatePolygon, TakesCornersInLineWithTheirNeighbours) {
     const auto triangles = triangulate_polygon(turned, points);
     ASSERT_TRUE(triangles);
     EXPECT_EQ(triangles->size(), 4u);
+    for (const Triangle& t : *triangles) {
+      EXPECT_GT(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]).z, 1e-3) << "from corner " << first;
+    }
   }
+}
+
+TEST(TriangulatePolygon, MakesNoFlatTriangleOfATriangleWithPointsOnEverySide) {
+  const std::vector<Point3> points{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 3, 0},
+                                   {0, 2, 0}, {0, 1, 0}};
+  const auto triangles = triangulate_polygon(all_of(points), points);
+  ASSERT_TRUE(triangles);
+  for (const Triangle& t : *triangles) {
+    EXPECT_GT(cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]).z, 0.1);
+  }
+  EXPECT_NEAR(area_along_z(*triangles, points), 4.5, 1e-12);
 }
 
 TEST(TriangulatePolygon, RefusesABowTieAndTwoCorners) {

@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-const char* const kVerbs[] = {"info", "surface", "tet", "check", "convert", "phantom"};
+const char* const kVerbs[] = {"info", "surface", "remesh", "tet", "check", "convert", "phantom"};
 
 TEST(CliVerbs, HelpAndVersionExitWithZero) {
   const Outcome overview = run_delvox({"--help"});

@@ -13,7 +13,7 @@
 namespace delvox {
 
 /// Cheap: everything that needs the mesh alone; a fraction of a second for a million tets, run after every mesher.
-/// Full: adds crossing triangles, and, with a volume, everything that compares the mesh with the voxels.
+/// Full: adds crossing triangles, and everything that compares the mesh with a volume or a polygon surface.
 enum class CheckLevel { kCheap, kFull };
 
 /// What check_mesh holds a mesh to.
@@ -26,7 +26,8 @@ struct CheckOptions {
   std::optional<Isosurface> isosurface;  ///< of the volume; default: the isovalue that the mesh carries
   std::optional<double> node_tolerance_voxels;  ///< how far a surface node may lie from the isosurface;
                                                 ///< default: 1e-4 if the mesh carries an isovalue, else no bound
-  bool require_voxel_topology = false;  ///< fail unless components and Euler number equal the volume's
+  const SurfaceMesh* surface = nullptr;  ///< compare with this polygon surface, in the same frame as the mesh
+  bool require_same_topology = false;  ///< fail unless components and Euler number equal the volume's, the surface's
 };
 
 /// How a check ended; kNotApplicable: there was nothing to hold the mesh to.
@@ -80,13 +81,25 @@ struct MeshStatistics {
   Distribution edge_mm;           ///< shortest and longest edge of each tet, else the edges of the triangles
 };
 
+/// From samples of one surface to the other, mm; means are by area.
+struct SurfaceDistances {
+  double mesh_to_surface_max_mm = 0, mesh_to_surface_mean_mm = 0;
+  double surface_to_mesh_max_mm = 0, surface_to_mesh_mean_mm = 0;
+};
+
 /// How mesh and voxels compare; filled when a volume was given and the level is full.
 struct VoxelComparison {
   VoxelTopology voxels;            ///< counted on the trilinear isosurface
   double voxel_volume_mm3 = 0;     ///< enclosed by the trilinear isosurface
   double volume_ratio = 0;         ///< mesh / voxels
-  double mesh_to_surface_max_mm = 0, mesh_to_surface_mean_mm = 0;
-  double surface_to_mesh_max_mm = 0, surface_to_mesh_mean_mm = 0;
+  SurfaceDistances distances;
+};
+
+/// How mesh and polygon surface compare; filled when one was given and the level is full.
+struct SurfaceComparison {
+  std::size_t components = 0;  ///< of the polygon surface, equal points being one
+  long euler = 0;
+  SurfaceDistances distances;
 };
 
 /// What a solver objects to by its own measure: reported, no promise of ours.
@@ -106,6 +119,7 @@ struct CheckReport {
   MeshStatistics statistics;
   std::optional<VoxelComparison> comparison;
   std::vector<SolverLimit> solver_limits;  ///< of tets, at the full level
+  std::optional<SurfaceComparison> surface_comparison;
 
   bool all_hold() const;
   /// The check of that name, or null.

@@ -25,4 +25,7 @@ struct MeshFile {
 /// one line: file, cause, mend. Nothing is allocated because a file only claims to be large.
 MeshFile read_mesh(const std::filesystem::path& path);
 
+/// Whether `path` has the extension of a mesh format, be it one that is only written.
+bool is_mesh_path(const std::filesystem::path& path);
+
 }  // namespace delvox
