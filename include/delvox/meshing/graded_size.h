@@ -11,8 +11,8 @@ namespace delvox {
 class DepthTree;
 
 /// How far inside a domain a place lies: its distance from the surface, mm, as known from points on the surface about
-/// 0.7 sizes apart: too small by up to a size, or by some percent deep inside; too large by half a size at most, and by
-/// that at the surface only. Copies share what was computed.
+/// 0.7 sizes apart: too small by up to a size and a third of the depth; too large by less than a size, and by that at
+/// the surface only. Copies share what was computed.
 class DepthField {
  public:
   /// `size`: of the surface to be meshed. Takes about as long as the seeds of a surface of that size do. Throws what
