@@ -85,7 +85,9 @@ class SeedMaker {
   static constexpr std::size_t kBatch = 8, kCandidatesPerChunk = 8192;
 
   std::vector<Chunk> cut_into_chunks() {
-    const std::size_t most = kCandidatesPerChunk / static_cast<std::size_t>(copies_at(least_spacing_));
+    // A field of sizes may take its time: no more of it is asked between two questions whether to go on.
+    const std::size_t most =
+        size_.constant() ? kCandidatesPerChunk / static_cast<std::size_t>(copies_at(least_spacing_)) : 1;
     std::vector<Chunk> chunks;
     std::size_t crossings = 0;
     field_.for_each_mixed_brick([&](const Index3& brick) {
