@@ -15,7 +15,7 @@ TEST_P(SampleBars, EveryPromiseHoldsAndASecondRunGivesTheSameBytes) {
 }
 
 const Scan kSkull{"skull", "skull_2.9.inr", {"--iso", "2.9"}, {{4.92, 50'000}}};
-const Scan kLiver{"liver", "liver.inr.gz", {"--iso", "64", "--smooth", "0.8"}, {{5.4, 50'000}, {2.5, 100'000, 0.3}}};
+const Scan kLiver{"liver", "liver.inr.gz", {"--iso", "64", "--smooth", "0.8"}, {{5.4, 50'000}, {2.5, 126'000, 0.3}}};
 
 INSTANTIATE_TEST_SUITE_P(Debian, SampleBars, testing::Values(kSkull, kLiver), testing::PrintToStringParamName());
 

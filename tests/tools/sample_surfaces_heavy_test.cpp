@@ -23,7 +23,8 @@ const std::string kPointsOnly = "b9.ply";
 
 std::string half_of_default_size(const fs::path& surface) {
   Box3 box;
-  for (const Point3& p : std::get<SurfaceMesh>(read_mesh(surface).mesh).points) box.extend(p);
+  const MeshFile file = read_mesh(surface);
+  for (const Point3& p : std::get<SurfaceMesh>(file.mesh).points) box.extend(p);
   return std::to_string(box.diagonal() / 120);
 }
 
