@@ -13,7 +13,7 @@ struct Stretch {
   std::size_t next = 0, end = 0;
 };
 
-constexpr std::size_t kMostLanes = 16, kFewestPointsPerLane = 64, kLanesPerChunk = 2;
+constexpr std::size_t kMostLanes = 16, kFewestPointsPerLane = 64;
 
 }  // namespace
 
@@ -54,9 +54,7 @@ std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& 
       stretches[i].end = begin + count * (i + 1) / lanes;
     }
     const auto for_each_lane = [&](const auto& visit) {
-      for_each_chunk(lanes, kLanesPerChunk, [&](std::size_t from, std::size_t to) {
-        for (std::size_t i = from; i < to; ++i) visit(stretches[i]);
-      });
+      team_.for_each(lanes, [&](std::size_t i) { visit(stretches[i]); });
     };
     bool left = true;
     while (left && (going = going && go_on())) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel.h"
+#include "core/team.h"
 #include "delaunay/delaunay3.h"
 #include "delaunay/lane.h"
 #include "delaunay/surface_balls.h"
@@ -111,6 +112,8 @@ class RestrictedDelaunay {
   // Insertions in lanes. First, beside each other: evaluate and claim; then, by one thread: furnish; then, beside each
   // other: what holds its claims may be committed. Nothing else may change the triangulation meanwhile.
 
+  /// The threads that work in lanes.
+  Team& team() { return team_; }
   /// The calling thread's own.
   Worker& worker() const { return workers_.local(); }
   void evaluate(const Point3& p, CellId hint, Worker& worker, Star& star) const;
@@ -139,6 +142,7 @@ class RestrictedDelaunay {
 
   const Oracle& oracle_;
   mutable PerThread<Worker> workers_;
+  Team team_{thread_count()};
   Delaunay3 delaunay_;
   std::vector<Label> labels_;
   std::vector<VertexKind> kinds_;

@@ -8,7 +8,7 @@
 namespace delvox {
 namespace {
 
-constexpr std::size_t kMostLanes = 8, kFewestLanes = 8, kWaitingPerLane = 32, kLanesPerChunk = 1;
+constexpr std::size_t kMostLanes = 8, kFewestLanes = 8, kWaitingPerLane = 32;
 /// Facets that a lane may judge before the others are waited for.
 constexpr std::size_t kMostJudged = 16;
 
@@ -91,9 +91,7 @@ void Refinement::run_lanes(RefinementQueues& aside) {
   }
   queues_ = {};
   const auto for_each_lane = [&](const auto& visit) {
-    for_each_chunk(lanes, kLanesPerChunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) visit(lanes_[i]);
-    });
+    delaunay_.team().for_each(lanes, [&](std::size_t i) { visit(lanes_[i]); });
   };
   std::size_t busy = lanes;
   while (2 * busy > lanes && !budget_.exhausted()) {
