@@ -7,6 +7,7 @@
 
 #include "check/exact_orientation.h"
 #include "check/incidence.h"
+#include "core/union_find.h"
 
 namespace delvox::check {
 namespace {

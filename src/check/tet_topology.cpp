@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "check/incidence.h"
+#include "core/union_find.h"
 
 namespace delvox::check {
 namespace {

@@ -232,11 +232,10 @@ bool Delaunay3::holds(const Star& star, std::uint32_t number) const {
          });
 }
 
-void Delaunay3::furnish(Room& room, const Star& star) {
-  constexpr std::size_t kSpare = 256;  // a lane's cells lie together in memory
+void Delaunay3::furnish(Room& room, const Star& star, std::size_t spare_cells) {
   if (room.vertex == kNone) room.vertex = new_vertex();
   if (room.cells.size() + star.zone.size() >= star.tets.size()) return;
-  const std::size_t wanted = star.tets.size() - star.zone.size() + kSpare;
+  const std::size_t wanted = star.tets.size() - star.zone.size() + spare_cells;
   while (room.cells.size() < wanted) room.cells.push_back(new_cell());
 }
 

@@ -90,8 +90,9 @@ class Delaunay3 {
   /// Claims what committing the star touches: its zone and the cells around it.
   void claim(const Star& star, std::uint32_t claim) const;
   bool holds(const Star& star, std::uint32_t claim) const;
-  /// Puts into the room what committing the star takes, and some more. Not to be called beside anything else.
-  void furnish(Room& room, const Star& star);
+  /// Puts into the room what committing the star takes, and if that is not there yet, so many cells more. Not to be
+  /// called beside anything else.
+  void furnish(Room& room, const Star& star, std::size_t spare_cells = 0);
   /// Gives back what is left in the room.
   void clear_out(Room& room);
   /// As above, beside others. The cells' stamp is the claim. pre: holds(star, claim), room furnished for the star.

@@ -120,7 +120,8 @@ bool RestrictedDelaunay::holds(FacetId facet, std::uint32_t claim) const {
 }
 
 void RestrictedDelaunay::furnish(Lane& lane, bool star, std::size_t balls) {
-  if (star) delaunay_.furnish(lane.room, lane.star);
+  constexpr std::size_t kSpareCells = 256;
+  if (star) delaunay_.furnish(lane.room, lane.star, kSpareCells);
   balls_.furnish(lane.balls, 2 * balls + (star ? lane.star.tets.size() : 0), balls);
   grow();
 }

@@ -56,8 +56,6 @@ class RestrictedDelaunay {
   std::size_t vertex_count() const { return delaunay_.vertex_count() - Delaunay3::kCorners; }
   /// Changes whenever the number is given to another cell; 0: not in use.
   std::uint32_t stamp(CellId cell) const { return delaunay_.stamp(cell); }
-  /// Cells made from now on have this stamp or a greater one.
-  std::uint32_t next_stamp() const { return delaunay_.next_stamp(); }
   bool alive(CellId cell, std::uint32_t stamp) const { return delaunay_.stamp(cell) == stamp; }
   const Circumsphere& sphere(CellId cell) const { return delaunay_.sphere(cell); }
   Label label(CellId cell) const { return labels_[cell]; }
@@ -122,7 +120,8 @@ class RestrictedDelaunay {
   bool holds(const Lane& lane) const { return delaunay_.holds(lane.star, lane.claim); }
   void claim(FacetId facet, std::uint32_t claim) const;
   bool holds(FacetId facet, std::uint32_t claim) const;
-  /// For the lane's star, if `star`, and so many new balls.
+  /// For the lane's star, if `star`, and so many new balls; with spare cells for the lane's next stars, so that these
+  /// lie together in memory.
   void furnish(Lane& lane, bool star, std::size_t balls);
   /// Gives back what the lane has not used.
   void clear_out(Lane& lane);

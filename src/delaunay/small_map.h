@@ -19,9 +19,8 @@ class SmallMap {
     entries_.assign(entries_.size(), {});
     round_ = 1;
   }
-  std::size_t size() const { return size_; }
 
-  /// The key's number; make() gives it if the key is new. make() may not use the map itself, but for its size.
+  /// The key's number; make() gives it if the key is new. make() may not use the map.
   template <class Make>
   std::uint32_t find_or(std::uint32_t key, const Make& make) {
     if (2 * size_ >= entries_.size()) grow();

@@ -18,7 +18,7 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
   refinement.insert_seeds();  // step 1
   do {
     budget.begin_stage("surface");
-    refinement.refine_surface();  // step 2, Quality
+    refinement.refine();  // step 2, Quality
     budget.begin_stage("topology");
   } while (refinement.repair());  // step 3
   budget.end_stage();

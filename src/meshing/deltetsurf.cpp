@@ -25,15 +25,14 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
   };
   do {
     budget.begin_stage("surface");
-    refinement.refine_surface();  // steps 2 and 3, Quality
+    refinement.refine();  // steps 2 and 3, Quality
   } while (repair_topology());
   budget.begin_stage("interior");
   refinement.fill_interior(options.tets);  // not in the book: most of what step 7 would insert, at once
   refinement.watch_tets(options.tets);
   do {
     budget.begin_stage("tets");
-    refinement.refine_surface();
-    refinement.refine_tets();  // step 7, returning to steps 2 and 3 after each surface insertion
+    refinement.refine();  // step 7, returning to steps 2 and 3 after each surface insertion
   } while (repair_topology());
   budget.end_stage();
 

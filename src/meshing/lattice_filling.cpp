@@ -14,7 +14,7 @@ void Refinement::fill_interior(const TetCriteria& criteria) {
   lattice.find_depths();
   do {
     insert_shell(lattice);
-    refine_surface();  // step 2 removes the sites that disturb the surface
+    refine();  // step 2 removes the sites that disturb the surface
     if (!budget_left()) return;
   } while (lattice.adapt(delaunay_));
   deep_ = lattice.deep();

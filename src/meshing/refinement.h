@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -29,9 +30,10 @@ class Refinement {
   /// Step 1: a sample of every component to start from. Throws NothingToMesh if there is none.
   void insert_seeds();
 
-  /// Steps 2 and 3 of DelTetSurf with Quality and the deviation bound: removes interior vertices from the surface, then
-  /// splits restricted triangles that are too large or too skinny, until none is left.
-  void refine_surface() { refine(); }
+  /// Works the queues until nothing waits, or the budget is used up. Steps 2 and 3 of DelTetSurf with Quality and the
+  /// deviation bound: removes interior vertices from the surface, and splits restricted triangles that are too large or
+  /// too skinny. Step 7, once tetrahedra are watched and while no triangle waits: splits those that break a criterion.
+  void refine();
   /// Step 5, then landmarks; neither once step 5 has turned out to be hopeless. True if anything was inserted.
   bool repair() { return !effort_.hopeless() && (repair_topology() || repair_landmarks()); }
 
@@ -39,8 +41,6 @@ class Refinement {
   void fill_interior(const TetCriteria& criteria);
   /// From now on tetrahedra that break `criteria` are kept in a stack.
   void watch_tets(const TetCriteria& criteria);
-  /// Step 7: splits the tetrahedra on the stack until it is empty, the surface kept refined throughout.
-  void refine_tets() { refine(); }
 
   /// Tells the report what could not be met.
   void report_unmet();
@@ -62,20 +62,21 @@ class Refinement {
     CellId cell;
     std::uint32_t stamp;
   };
+  /// A matter of the mesh alone, never of the number of threads.
+  static constexpr std::size_t kLanes = 8;
   enum class Verdict { kGood, kSplit, kTooDeviant };
 
   // Lanes (refinement_lanes.cpp)
-  static std::size_t lanes_for(std::size_t waiting);
-  void refine();
+  static bool enough_for_lanes(std::size_t waiting);
   void run_lanes(RefinementQueues& aside);
   template <class Waiting, class CellOf>
   void sort_by_place(std::vector<Waiting>& entries, std::size_t first, const CellOf& cell_of) const;
-  void keep_to_budget(std::size_t lanes);
+  void keep_to_budget();
   void run_alone(std::size_t at_least);
   void furnish(RefinementLane& lane);
   void collect(RefinementLane& lane);
   void look(RefinementLane& lane, RefinementQueues& queues, bool alone);
-  void look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
+  bool look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
   void conclude(RefinementLane& lane, RefinementQueues& queues);
   void judge_new(RefinementLane& lane, RefinementQueues& queues, std::size_t first);
   void keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant);
@@ -123,6 +124,7 @@ class Refinement {
   bool repair_voronoi_edges(bool again);
   std::vector<MisplacedCell> excursions_of_all() const;
   std::vector<MisplacedCell> excursions_at(std::vector<VertexId> vertices) const;
+  void add_excursions(CellId cell, VertexId at, const Oracle& oracle, std::vector<MisplacedCell>& misplaced) const;
   bool look_closer();
   SurfaceTopology topology() const;
   std::optional<Point3> crossing_of_excursion(FacetId facet, const Oracle& oracle) const;
@@ -148,7 +150,7 @@ class Refinement {
   std::optional<DeepLattice> deep_;
 
   RefinementQueues queues_;
-  std::vector<RefinementLane> lanes_;
+  std::array<RefinementLane, kLanes> lanes_;
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;
   LandmarkWatch watch_;

@@ -8,7 +8,7 @@
 namespace delvox {
 namespace {
 
-constexpr std::size_t kMostLanes = 8, kFewestLanes = 8, kWaitingPerLane = 32;
+constexpr std::size_t kFewestPerLane = 32;
 /// Facets that a lane may judge before the others are waited for.
 constexpr std::size_t kMostJudged = 16;
 
@@ -25,16 +25,21 @@ void append(RefinementQueues& to, const RefinementQueues& from) {
   take_share(from.tets, 0, 0, 1, to.tets);
 }
 
-}  // namespace
-
-/// How many lanes to work in: a matter of the mesh alone, never of the number of threads.
-std::size_t Refinement::lanes_for(std::size_t waiting) {
-  const std::size_t lanes = waiting / kWaitingPerLane;
-  return lanes < kFewestLanes ? 1 : std::min(lanes, kMostLanes);
+/// All that waits in either, in the order that `first` comes out first.
+RefinementQueues joined(const RefinementQueues& first, const RefinementQueues& then) {
+  RefinementQueues both;
+  both.facets.assign(first.facets.begin() + static_cast<std::ptrdiff_t>(first.next_facet), first.facets.end());
+  both.tets = then.tets;
+  take_share(then.facets, then.next_facet, 0, 1, both.facets);
+  take_share(first.tets, 0, 0, 1, both.tets);
+  return both;
 }
 
-/// Until nothing waits, or the budget is used up: in lanes as long as there is enough for several, then what must or
-/// may as well be done alone.
+}  // namespace
+
+bool Refinement::enough_for_lanes(std::size_t waiting) { return waiting >= kLanes * kFewestPerLane; }
+
+/// In lanes as long as there is enough for them, then what must or may as well be done alone.
 void Refinement::refine() {
   while (queues_.waiting() > 0 && !budget_.exhausted()) {
     if (queues_.facets_waiting() > 0 && !queues_.tets.empty()) {
@@ -45,11 +50,9 @@ void Refinement::refine() {
       continue;
     }
     RefinementQueues aside;
-    while (lanes_for(queues_.waiting()) > 1 && !budget_.exhausted()) run_lanes(aside);
+    while (enough_for_lanes(queues_.waiting()) && !budget_.exhausted()) run_lanes(aside);
     const std::size_t at_least = aside.waiting();
-    append(aside, queues_);
-    std::rotate(aside.tets.begin(), aside.tets.end() - static_cast<std::ptrdiff_t>(queues_.tets.size()), aside.tets.end());
-    queues_ = std::move(aside);
+    queues_ = joined(aside, queues_);
     run_alone(at_least);
   }
 }
@@ -81,54 +84,51 @@ void Refinement::sort_by_place(std::vector<Waiting>& entries, std::size_t first,
 
 /// Gives each lane its share of what waits, and lets them work until half of them have nothing left.
 void Refinement::run_lanes(RefinementQueues& aside) {
-  const std::size_t lanes = lanes_for(queues_.waiting());
   sort_by_place(queues_.facets, queues_.next_facet, [](const auto& waiting) { return waiting.facet.cell; });
   sort_by_place(queues_.tets, 0, [](const auto& waiting) { return waiting.cell; });
-  if (lanes_.size() < lanes) lanes_.resize(lanes);
-  for (std::size_t i = 0; i < lanes; ++i) {
-    take_share(queues_.facets, queues_.next_facet, i, lanes, lanes_[i].queues.facets);
-    take_share(queues_.tets, 0, i, lanes, lanes_[i].queues.tets);
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    take_share(queues_.facets, queues_.next_facet, i, kLanes, lanes_[i].queues.facets);
+    take_share(queues_.tets, 0, i, kLanes, lanes_[i].queues.tets);
   }
   queues_ = {};
   const auto for_each_lane = [&](const auto& visit) {
-    delaunay_.team().for_each(lanes, [&](std::size_t i) { visit(lanes_[i]); });
+    delaunay_.team().for_each(kLanes, [&](std::size_t i) { visit(lanes_[i]); });
   };
-  std::size_t busy = lanes;
-  while (2 * busy > lanes && !budget_.exhausted()) {
-    const std::uint32_t first_claim = delaunay_.new_claims(static_cast<std::uint32_t>(lanes));
-    for (std::size_t i = 0; i < lanes; ++i) lanes_[i].lane.claim = first_claim + static_cast<std::uint32_t>(i);
+  std::size_t busy = kLanes;
+  while (2 * busy > kLanes && !budget_.exhausted()) {
+    std::uint32_t claim = delaunay_.new_claims(kLanes);
+    for (RefinementLane& lane : lanes_) lane.lane.claim = claim++;
     for_each_lane([&](RefinementLane& lane) { look(lane, lane.queues, false); });
-    keep_to_budget(lanes);
-    for (std::size_t i = 0; i < lanes; ++i) furnish(lanes_[i]);
+    keep_to_budget();
+    for (RefinementLane& lane : lanes_) furnish(lane);
     for_each_lane([&](RefinementLane& lane) { conclude(lane, lane.queues); });
-    busy = static_cast<std::size_t>(std::count_if(lanes_.begin(), lanes_.begin() + static_cast<std::ptrdiff_t>(lanes),
-                                                  [](const auto& lane) { return lane.queues.waiting() > 0; }));
+    busy = static_cast<std::size_t>(
+        std::count_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane.queues.waiting() > 0; }));
   }
-  for (std::size_t i = 0; i < lanes; ++i) {
-    append(queues_, std::exchange(lanes_[i].queues, {}));
-    append(aside, std::exchange(lanes_[i].aside, {}));
-    collect(lanes_[i]);
+  for (RefinementLane& lane : lanes_) {
+    append(queues_, std::exchange(lane.queues, {}));
+    append(aside, std::exchange(lane.aside, {}));
+    collect(lane);
   }
 }
 
 /// Takes back insertions that the budget has no room for.
-void Refinement::keep_to_budget(std::size_t lanes) {
-  std::size_t room = 0;
-  bool asked = false;
-  for (std::size_t i = 0; i < lanes; ++i) {
-    if (!lanes_[i].insertion) continue;
-    if (!std::exchange(asked, true) && budget_left()) room = budget_.room(vertex_count());
-    if (room == 0) lanes_[i].insertion.reset();
-    if (lanes_[i].insertion && delaunay_.holds(lanes_[i].lane)) --room;
+void Refinement::keep_to_budget() {
+  const auto inserts = [](const RefinementLane& lane) { return lane.insertion.has_value(); };
+  if (std::none_of(lanes_.begin(), lanes_.end(), inserts)) return;
+  std::size_t room = budget_left() ? budget_.room(vertex_count()) : 0;
+  if (room >= kLanes) return;
+  for (RefinementLane& lane : lanes_) {
+    if (room == 0) lane.insertion.reset();
+    if (lane.insertion && delaunay_.holds(lane.lane)) --room;
   }
 }
 
 /// One thing after the other, at least so many, and on until there is enough for several lanes.
 void Refinement::run_alone(std::size_t at_least) {
-  if (lanes_.empty()) lanes_.resize(1);
   RefinementLane& lane = lanes_.front();
   for (std::size_t done = 0; queues_.waiting() > 0; ++done) {
-    if (done >= at_least && lanes_for(queues_.waiting()) > 1) break;
+    if (done >= at_least && enough_for_lanes(queues_.waiting())) break;
     lane.lane.claim = delaunay_.new_claims(1);
     look(lane, queues_, true);
     if (lane.insertion && !budget_left()) break;
@@ -166,8 +166,9 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
   lane.judged.clear();
   lane.insertion.reset();
   Worker& worker = delaunay_.worker();
-  while (queues.facets_waiting() > 0 && !lane.insertion && lane.judged.size() < kMostJudged) {
-    look_at_facet(lane, queues, worker, alone);
+  bool going = true;
+  while (going && queues.facets_waiting() > 0 && !lane.insertion && lane.judged.size() < kMostJudged) {
+    going = look_at_facet(lane, queues, worker, alone);
   }
   while (lane.judged.empty() && queues.facets_waiting() == 0 && !queues.tets.empty() && !lane.insertion) {
     look_at_tet(lane, queues, worker, alone);
@@ -178,37 +179,49 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
   if (!watch_.empty() && lane.insertion == VertexKind::kSurface) lane.changing = box_of_change(lane.lane.star);
 }
 
-/// The first facet waiting: leaves the queue, unless something is to be inserted for it.
-void Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
+/// The first facet waiting: leaves the queue, unless something is to be inserted for it. False if the mesh has to change
+/// for it at once, which it must not before the balls judged so far are kept.
+bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
   const auto waiting = queues.facets[queues.next_facet];
   const FacetId facet = waiting.facet;
-  if (!delaunay_.alive(facet.cell, waiting.stamp) || !delaunay_.bipolar(facet)) return queues.pop_facet();
-  if (has_interior_vertex(facet)) {
+  const bool may_change = alone && lane.judged.empty();
+  if (!delaunay_.alive(facet.cell, waiting.stamp) || !delaunay_.bipolar(facet)) {
     queues.pop_facet();
-    return alone ? remove_interior_vertex_of(facet) : lane.aside.facets.push_back(waiting);
+    return true;
+  }
+  if (has_interior_vertex(facet)) {
+    if (alone && !may_change) return false;
+    queues.pop_facet();
+    alone ? remove_interior_vertex_of(facet) : lane.aside.facets.push_back(waiting);
+    return true;
   }
   const SurfaceBall* const known = delaunay_.ball(facet);
   const SurfaceBall ball = known != nullptr ? *known : delaunay_.find_ball(facet, *worker.oracle);
   const Verdict verdict = judge(facet, ball);
   if (verdict != Verdict::kSplit) {
     if (known == nullptr) lane.judged.push_back({waiting, ball, verdict == Verdict::kTooDeviant});
-    return queues.pop_facet();
+    queues.pop_facet();
+    return true;
   }
   Star& star = lane.lane.star;
   delaunay_.evaluate(ball.center, facet.cell, worker, star);
   if (delaunay_.disturbs_aside(star.zone)) {
-    if (alone) return insert_deep();
+    if (may_change) insert_deep();
+    if (alone) return may_change;
     lane.aside.facets.push_back(waiting);
-    return queues.pop_facet();
+    queues.pop_facet();
+    return true;
   }
   if (star.duplicate) {
     ++lane.stuck;
     lane.stuck_place = ball.center;
     if (known == nullptr) lane.judged.push_back({waiting, ball, false});
-    return queues.pop_facet();
+    queues.pop_facet();
+    return true;
   }
   lane.insertion = VertexKind::kSurface;
   lane.for_facet = true;
+  return true;
 }
 
 void Refinement::keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant) {

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "core/parallel.h"
+#include "core/union_find.h"
 #include "delaunay/restricted_triangles.h"
 #include "meshing/refinement.h"
 
@@ -44,14 +45,7 @@ std::vector<Refinement::MisplacedCell> Refinement::excursions_of_all() const {
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<MisplacedCell>& misplaced) {
     const Oracle& oracle = *delaunay_.worker().oracle;
     for (auto cell = std::max(static_cast<CellId>(begin), RestrictedDelaunay::kBeyond + 1); cell < end; ++cell) {
-      if (delaunay_.stamp(cell) == 0) continue;
-      for (int i = 0; i < 4; ++i) {
-        const CellId neighbor = delaunay_.neighbors(cell)[i];
-        if (neighbor < cell) continue;  // met from there; so is what lies beyond all cells
-        if (const auto p = crossing_of_excursion({cell, i}, oracle)) {
-          misplaced.push_back({*p, cell, delaunay_.stamp(cell)});
-        }
-      }
+      if (delaunay_.stamp(cell) != 0) add_excursions(cell, kNone, oracle, misplaced);
     }
   };
   return gather_chunks<MisplacedCell>(delaunay_.cell_capacity(), kChunk, collect);
@@ -65,18 +59,22 @@ std::vector<Refinement::MisplacedCell> Refinement::excursions_at(std::vector<Ver
     const Oracle& oracle = *delaunay_.worker().oracle;
     for (std::size_t v = begin; v < end; ++v) {
       if (delaunay_.kind(vertices[v]) != VertexKind::kSurface) continue;
-      for (CellId cell : delaunay_.incident_cells(vertices[v])) {
-        for (int i = 0; i < 4; ++i) {
-          const CellId neighbor = delaunay_.neighbors(cell)[i];
-          if (neighbor < cell || delaunay_.vertices(cell)[i] == vertices[v]) continue;
-          if (const auto p = crossing_of_excursion({cell, i}, oracle)) {
-            misplaced.push_back({*p, cell, delaunay_.stamp(cell)});
-          }
-        }
-      }
+      for (CellId cell : delaunay_.incident_cells(vertices[v])) add_excursions(cell, vertices[v], oracle, misplaced);
     }
   };
   return gather_chunks<MisplacedCell>(vertices.size(), kChunk, collect);
+}
+
+/// Those of the edges dual to the cell's facets, or to its facets at a vertex. Each edge is looked at from the lower of
+/// its two cells.
+void Refinement::add_excursions(CellId cell, VertexId at, const Oracle& oracle,
+                                std::vector<MisplacedCell>& misplaced) const {
+  for (int i = 0; i < 4; ++i) {
+    if (delaunay_.neighbors(cell)[i] < cell || delaunay_.vertices(cell)[i] == at) continue;
+    if (const auto p = crossing_of_excursion({cell, i}, oracle)) {
+      misplaced.push_back({*p, cell, delaunay_.stamp(cell)});
+    }
+  }
 }
 
 /// If the dual edge leaves its side for a while: its crossing farthest from the facet's vertices.
@@ -120,27 +118,20 @@ bool Refinement::look_closer() {
 /// Of the surface as it is. pre: every umbrella is a disk.
 SurfaceTopology Refinement::topology() const {
   const std::vector<FacetId> triangles = restricted_triangles(delaunay_);
-  std::vector<VertexId> parent(delaunay_.vertex_capacity(), kNone);  // of each vertex in a forest of the components
-  const auto root = [&](VertexId v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
-  std::size_t vertices = 0, joined = 0;
+  UnionFind components(delaunay_.vertex_capacity());
+  std::vector<bool> met(delaunay_.vertex_capacity());
+  std::size_t vertices = 0;
   for (FacetId facet : triangles) {
     const auto corners = delaunay_.vertices(facet);
     for (VertexId v : corners) {
-      if (parent[v] != kNone) continue;
-      parent[v] = v;
-      ++vertices;
-    }
-    for (int i = 1; i < 3; ++i) {
-      const VertexId a = root(corners[0]), b = root(corners[i]);
-      joined += a != b;
-      parent[std::max(a, b)] = std::min(a, b);
+      vertices += !met[v];
+      met[v] = true;
+      components.join(corners[0], v);
     }
   }
+  const std::size_t elsewhere = delaunay_.vertex_capacity() - vertices;  // each a set of its own
   // A closed surface has three edges for every two triangles.
-  return {vertices - joined, static_cast<long>(vertices) - static_cast<long>(triangles.size() / 2)};
+  return {components.set_count() - elsewhere, static_cast<long>(vertices) - static_cast<long>(triangles.size() / 2)};
 }
 
 }  // namespace delvox

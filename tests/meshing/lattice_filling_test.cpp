@@ -55,7 +55,7 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
 
   void refine_surface() {
     do {
-      refinement_->refine_surface();
+      refinement_->refine();
     } while (refinement_->repair());
   }
 
@@ -63,8 +63,7 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
   TetMesh finish(const TetCriteria& criteria) {
     refinement_->watch_tets(criteria);
     do {
-      refinement_->refine_surface();
-      refinement_->refine_tets();
+      refinement_->refine();
     } while (refinement_->repair());
     refinement_->report_unmet();
     const auto& deep = refinement_->deep();

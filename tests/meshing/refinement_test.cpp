@@ -1,0 +1,69 @@
+// What Refinement keeps between insertions, driven by hand to look at it.
+#include "meshing/refinement.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "phantom_cases.h"
+
+namespace delvox {
+namespace {
+
+class KeptBalls : public testing::TestWithParam<test::PhantomCase> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Phantoms, KeptBalls,
+    testing::Values(test::PhantomCase{"noisy-sphere", test::with_noise(test::cubic_image(64), 1), 1.5},
+                    test::PhantomCase{"noisy-sphere", test::with_noise(test::cubic_image(64), 1.5), 4}),
+    [](const auto& info) { return test::test_name(info.param) + "_" + std::to_string(info.index); });
+
+// Whatever has been removed in between: a ball belongs to a bipolar facet, its centre lies on the facet's dual edge.
+TEST_P(KeptBalls, AreThoseOfTheFacetsThatHaveThem) {
+  const test::PhantomCase& c = GetParam();
+  const auto oracle = make_isosurface_oracle(c.volume(), c.isosurface());
+  SurfaceCriteria surface;
+  surface.size = c.size;
+  surface.min_ball_radius = c.min_ball_radius();
+  const TetCriteria tets{2, c.size};
+  const RunControl control;
+  RunReport report;
+  Refinement refinement(*oracle, surface, control, report);
+  const auto refine = [&] {
+    do {
+      refinement.refine();
+    } while (refinement.repair());
+  };
+  refinement.insert_seeds();
+  refine();
+  refinement.fill_interior(tets);
+  refinement.watch_tets(tets);
+  refine();
+
+  const RestrictedDelaunay& delaunay = refinement.delaunay();
+  std::size_t balls = 0, strays = 0;
+  for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
+    if (delaunay.stamp(cell) == 0) continue;
+    for (int i = 0; i < 4; ++i) {
+      const FacetId facet{cell, i};
+      const SurfaceBall* const ball = delaunay.ball(facet);
+      if (ball == nullptr) continue;
+      ++balls;
+      const double radius = std::sqrt(ball->squared_radius), slack = 1e-6 * (radius + c.size);
+      const auto away = [&](VertexId v) { return distance(delaunay.point(v), ball->center); };
+      bool stray = !delaunay.bipolar(facet);
+      for (VertexId v : delaunay.vertices(facet)) stray |= std::abs(away(v) - radius) > slack;
+      const FacetId other = delaunay.mirror(facet);
+      for (const FacetId& side : {facet, other}) {
+        stray |= away(delaunay.vertices(side.cell)[side.index]) < radius - slack;
+      }
+      strays += stray;
+    }
+  }
+  EXPECT_GT(report.removals, 0u) << "else this proves nothing";
+  EXPECT_GT(balls, 0u);
+  EXPECT_EQ(strays, 0u);
+}
+
+}  // namespace
+}  // namespace delvox
