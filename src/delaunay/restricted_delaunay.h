@@ -56,6 +56,8 @@ class RestrictedDelaunay {
   std::size_t vertex_count() const { return delaunay_.vertex_count() - Delaunay3::kCorners; }
   /// Changes whenever the number is given to another cell; 0: not in use.
   std::uint32_t stamp(CellId cell) const { return delaunay_.stamp(cell); }
+  /// Cells made from now on have this stamp or a greater one.
+  std::uint32_t next_stamp() const { return delaunay_.next_stamp(); }
   bool alive(CellId cell, std::uint32_t stamp) const { return delaunay_.stamp(cell) == stamp; }
   const Circumsphere& sphere(CellId cell) const { return delaunay_.sphere(cell); }
   Label label(CellId cell) const { return labels_[cell]; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -76,28 +77,38 @@ bool InteriorLattice::find_inside(const RestrictedDelaunay& delaunay, const GoOn
   return true;
 }
 
-/// True if that blocked any site.
+/// By the vertices and balls that the surface has got since the last time. True if that blocked any site.
 bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
-  const auto any = [](const std::vector<std::uint8_t>& parts) {
-    return std::any_of(parts.begin(), parts.end(), [](std::uint8_t part) { return part != 0; });
-  };
-  const bool by_vertices = any(map_chunks(delaunay.vertex_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
-    std::uint8_t blocked = 0;
-    for (auto v = static_cast<VertexId>(begin); v < end; ++v) {
-      if (delaunay.kind(v) == VertexKind::kSurface) blocked |= block_around(delaunay.point(v), kClearance * cube_);
+  const std::uint32_t since = std::exchange(blocked_since_, delaunay.next_stamp());
+  std::vector<std::uint8_t> met(delaunay.vertex_capacity(), 0);
+  const auto blocked = map_chunks(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::uint8_t any = 0;
+    for (auto cell = std::max(static_cast<CellId>(begin), RestrictedDelaunay::kBeyond + 1); cell < end; ++cell) {
+      const std::uint32_t stamp = delaunay.stamp(cell);
+      if (stamp != 0 && stamp >= since) any |= block_near_cell(delaunay, cell, since, met);
     }
-    return blocked;
-  }));
-  const std::vector<FacetId> triangles = restricted_triangles(delaunay);
-  const bool by_balls = any(map_chunks(triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    std::uint8_t blocked = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const SurfaceBall* ball = delaunay.ball(triangles[i]);
-      if (ball != nullptr) blocked |= block_around(ball->center, std::sqrt(ball->squared_radius));
-    }
-    return blocked;
-  }));
-  return by_vertices || by_balls;
+    return any;
+  });
+  return std::any_of(blocked.begin(), blocked.end(), [](std::uint8_t any) { return any != 0; });
+}
+
+/// By the vertices of a new cell that none before has met, and by its balls.
+bool InteriorLattice::block_near_cell(const RestrictedDelaunay& delaunay, CellId cell, std::uint32_t since,
+                                      std::vector<std::uint8_t>& met) {
+  bool any = false;
+  for (VertexId v : delaunay.vertices(cell)) {
+    if (delaunay.kind(v) != VertexKind::kSurface) continue;
+    const std::atomic_ref<std::uint8_t> known(met[v]);
+    if (known.load(std::memory_order_relaxed) != 0 || known.exchange(1, std::memory_order_relaxed) != 0) continue;
+    any |= block_around(delaunay.point(v), kClearance * cube_);
+  }
+  for (int i = 0; i < 4 && delaunay.has_balls(cell); ++i) {
+    const SurfaceBall* ball = delaunay.ball({cell, i});
+    const CellId other = delaunay.neighbors(cell)[i];
+    const bool met_from_there = other < cell && delaunay.stamp(other) >= since;
+    if (ball != nullptr && !met_from_there) any |= block_around(ball->center, std::sqrt(ball->squared_radius));
+  }
+  return any;
 }
 
 /// Beside others of its kind: whoever blocks a site writes the same.

@@ -1,30 +1,29 @@
 #include "meshing/pieces.h"
 
+#include <algorithm>
+
+#include "core/parallel.h"
+#include "core/union_find.h"
+
 namespace delvox {
-namespace {
-
-void flood(const RestrictedDelaunay& delaunay, CellId start, std::uint32_t piece, std::vector<std::uint32_t>& of_cell) {
-  std::vector<CellId> stack{start};
-  of_cell[start] = piece;
-  while (!stack.empty()) {
-    const CellId cell = stack.back();
-    stack.pop_back();
-    for (CellId next : delaunay.neighbors(cell)) {
-      if (of_cell[next] != kNone || next == RestrictedDelaunay::kBeyond) continue;
-      if (delaunay.label(next) != delaunay.label(cell)) continue;
-      of_cell[next] = piece;
-      stack.push_back(next);
-    }
-  }
-}
-
-}  // namespace
 
 Pieces find_pieces(const RestrictedDelaunay& delaunay) {
+  constexpr CellId kFirst = RestrictedDelaunay::kBeyond + 1;
+  constexpr std::size_t kChunk = 1 << 13;
+  UnionFind joined(delaunay.cell_capacity());
+  for_each_chunk(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (auto cell = std::max(static_cast<CellId>(begin), kFirst); cell < end; ++cell) {
+      if (delaunay.stamp(cell) == 0) continue;
+      for (CellId next : delaunay.neighbors(cell)) {
+        if (next > cell && delaunay.label(next) == delaunay.label(cell)) joined.join(cell, next);
+      }
+    }
+  });
   Pieces pieces{std::vector<std::uint32_t>(delaunay.cell_capacity(), kNone), 0};
-  for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
-    if (pieces.of_cell[cell] != kNone || delaunay.stamp(cell) == 0) continue;
-    flood(delaunay, cell, pieces.count++, pieces.of_cell);
+  for (CellId cell = kFirst; cell < delaunay.cell_capacity(); ++cell) {
+    if (delaunay.stamp(cell) == 0) continue;
+    const std::uint32_t first = joined.root(cell);  // the lowest of its piece
+    pieces.of_cell[cell] = first == cell ? pieces.count++ : pieces.of_cell[first];
   }
   return pieces;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <span>
 
 #include "core/parallel.h"
@@ -12,51 +13,50 @@ namespace {
 
 using LinkEdge = std::array<VertexId, 2>;
 
-/// Do the edges form exactly one cycle?
+/// Do the edges, each directed as its triangle is, form exactly one cycle? There are few: looking through all for the
+/// next is faster than sorting them.
 bool is_one_cycle(std::span<const LinkEdge> edges) {
   if (edges.empty()) return true;
-  // Both directions of each edge, sorted by their first end: in a cycle every vertex comes up exactly twice.
-  thread_local std::vector<LinkEdge> half_edges;
-  half_edges.clear();
-  for (const LinkEdge& e : edges) {
-    half_edges.push_back(e);
-    half_edges.push_back({e[1], e[0]});
-  }
-  std::sort(half_edges.begin(), half_edges.end());
-  for (std::size_t i = 0; i < half_edges.size(); i += 2) {
-    if (half_edges[i][0] != half_edges[i + 1][0]) return false;
-    if (i + 2 < half_edges.size() && half_edges[i + 2][0] == half_edges[i][0]) return false;
-  }
-  const auto others = [&](VertexId v) {
-    return std::lower_bound(half_edges.begin(), half_edges.end(), LinkEdge{v, 0});
-  };
-  VertexId previous = edges[0][0], current = edges[0][1];
-  std::size_t length = 1;
-  while (current != edges[0][0]) {
-    const auto pair = others(current);
-    const VertexId next = (*pair)[1] != previous ? (*pair)[1] : (*(pair + 1))[1];
-    previous = current;
-    current = next;
-    if (++length > edges.size()) return false;
-  }
+  VertexId current = edges[0][0];
+  std::size_t length = 0;
+  do {
+    const LinkEdge* next = nullptr;
+    for (const LinkEdge& edge : edges) {
+      if (edge[0] != current) continue;
+      if (next != nullptr) return false;
+      next = &edge;
+    }
+    if (next == nullptr || ++length > edges.size()) return false;
+    current = (*next)[1];
+  } while (current != edges[0][0]);
   return length == edges.size();
 }
 
-/// The link edges of all vertices, vertex after vertex.
+/// The link edges of all vertices, vertex after vertex; those of one vertex in any order.
 class Links {
  public:
   explicit Links(const RestrictedDelaunay& delaunay) : first_(delaunay.vertex_capacity() + 1, 0) {
-    std::vector<std::array<VertexId, 3>> triangles;
-    for (FacetId facet : restricted_triangles(delaunay)) triangles.push_back(delaunay.vertices(facet));
-    for (const auto& triangle : triangles) {
-      for (VertexId v : triangle) ++first_[v + 1];
-    }
+    constexpr std::size_t kChunk = 1 << 12;
+    const std::vector<FacetId> facets = restricted_triangles(delaunay);
+    std::vector<std::array<VertexId, 3>> triangles(facets.size());
+    const auto count_one = [](std::uint32_t& counter) {
+      return std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed);
+    };
+    for_each_chunk(facets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        triangles[i] = delaunay.vertices(facets[i]);
+        for (VertexId v : triangles[i]) count_one(first_[v + 1]);
+      }
+    });
     for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
     edges_.resize(3 * triangles.size());
-    for (const auto& t : triangles) {
-      for (int i = 0; i < 3; ++i) edges_[next[t[i]]++] = {t[(i + 1) % 3], t[(i + 2) % 3]};
-    }
+    for_each_chunk(triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto& t = triangles[i];
+        for (int c = 0; c < 3; ++c) edges_[count_one(next[t[c]])] = {t[(c + 1) % 3], t[(c + 2) % 3]};
+      }
+    });
   }
 
   std::span<const LinkEdge> of(VertexId vertex) const {
