@@ -20,40 +20,51 @@ Team::Team(int threads) {
 
 Team::~Team() {
   dismissed_ = true;
-  pieces_.fetch_add(1);
-  pieces_.notify_all();
+  rounds_.fetch_add(1);
+  rounds_.notify_all();
   for (std::thread& member : members_) member.join();
 }
 
 void Team::for_each(std::size_t count, const std::function<void(std::size_t)>& work) {
   work_ = &work;
-  count_ = count;
-  next_ = 0;
-  finished_ = 0;
-  pieces_.fetch_add(1);
-  pieces_.notify_all();
+  done_ = 0;
+  const std::uint32_t round = rounds_.load() + 1;
+  pieces_ = Pieces{round} << kRound | count;
+  rounds_ = round;
+  rounds_.notify_all();
   take_part();
-  while (finished_.load() < members_.size()) std::this_thread::yield();
+  while (done_.load() < count) std::this_thread::yield();
   if (failed_.exchange(false)) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
 void Team::take_part() {
+  Pieces pieces = pieces_.load();
+  while ((pieces >> kNext & kMask) < (pieces & kMask)) {
+    if (!pieces_.compare_exchange_weak(pieces, pieces + (Pieces{1} << kNext))) continue;
+    // Until this piece is done its round lasts, and with it work_.
+    do_piece(pieces >> kNext & kMask);
+    pieces = pieces_.load();
+  }
+}
+
+void Team::do_piece(std::size_t i) {
   try {
-    for (std::size_t i = next_.fetch_add(1); i < count_; i = next_.fetch_add(1)) (*work_)(i);
+    if (!failed_) (*work_)(i);
   } catch (...) {
     if (!failed_.exchange(true)) failure_ = std::current_exception();
   }
+  done_.fetch_add(1);
 }
 
 void Team::serve() {
   constexpr int kSpins = 20000;  // some tens of microseconds
-  for (std::uint32_t seen = 0;;) {
-    for (int spin = 0; spin < kSpins && pieces_.load() == seen; ++spin) pause();
-    pieces_.wait(seen);
-    ++seen;
+  std::uint32_t seen = 0;
+  while (true) {
+    for (int spin = 0; spin < kSpins && rounds_.load() == seen; ++spin) pause();
+    rounds_.wait(seen);
+    seen = rounds_.load();
     if (dismissed_) return;
     take_part();
-    finished_.fetch_add(1);
   }
 }
 

@@ -9,7 +9,7 @@ namespace delvox {
 namespace {
 
 TEST(Team, DoesEachPieceOfWorkOnceThousandsOfTimes) {
-  for (int threads : {1, 2, 4}) {
+  for (int threads : {1, 2, 4, 16}) {
     Team team(threads);
     std::vector<int> done(7, 0);
     for (int round = 1; round <= 3000; ++round) {
