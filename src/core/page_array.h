@@ -19,9 +19,7 @@ class PageArray {
   PageArray() = default;
   PageArray(const PageArray&) = delete;
   PageArray& operator=(const PageArray&) = delete;
-  ~PageArray() {
-    if (data_ != nullptr) munmap(data_, bytes_);
-  }
+  ~PageArray() { free(); }
 
   std::size_t size() const { return size_; }
   T& operator[](std::size_t i) { return data_[i]; }
@@ -34,6 +32,12 @@ class PageArray {
   }
   /// Forgets the elements but keeps the pages: what grows again starts with what was there.
   void clear() { size_ = 0; }
+  /// Gives the pages back.
+  void free() {
+    if (data_ != nullptr) munmap(data_, bytes_);
+    data_ = nullptr;
+    size_ = bytes_ = 0;
+  }
 
  private:
   static constexpr std::size_t kHugePage = std::size_t{1} << 21;

@@ -17,7 +17,7 @@ Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds), several_threads_(thr
   const double far = 7.31 * bounds.diagonal();
   for (const Point3& corner :
        {Point3{1.01, 1.02, 1.03}, Point3{-1.07, 1.08, -1.09}, Point3{1.04, -1.05, -1.06}, Point3{-1.1, -1.11, 1.12}}) {
-    vertices_.push_back({c + far * corner, kOutside});
+    vertices_[new_vertex()] = {c + far * corner, kOutside};
   }
   // Below this radius the rounding of a circumcentre, which grows with its coordinates, is no longer far below the
   // filter's margin.
@@ -33,7 +33,8 @@ Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds), several_threads_(thr
 Delaunay3::~Delaunay3() = default;
 
 void Delaunay3::clear() {
-  vertices_.resize(kCorners);
+  vertices_.clear();
+  vertices_.grow_to(kCorners);  // the corners are still there
   vertex_count_ = kCorners;
   free_vertices_.clear();
   free_cells_.clear();
@@ -178,7 +179,7 @@ void Delaunay3::join(FacetId facet, FacetId outer) {
 
 VertexId Delaunay3::new_vertex() {
   if (free_vertices_.empty()) {
-    vertices_.emplace_back();
+    vertices_.grow_to(vertices_.size() + 1);
     return static_cast<VertexId>(vertices_.size() - 1);
   }
   const VertexId vertex = free_vertices_.back();

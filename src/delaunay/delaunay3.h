@@ -136,7 +136,7 @@ class Delaunay3 {
   bool several_threads_;
   PageArray<Cell> cells_;
   mutable PageArray<Mark> marks_;
-  std::vector<Vertex> vertices_;
+  PageArray<Vertex> vertices_;
   std::vector<CellId> free_cells_;
   std::vector<VertexId> free_vertices_;
   double trusted_squared_radius_ = 0, orientation_error_ = 0;

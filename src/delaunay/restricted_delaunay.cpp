@@ -47,7 +47,7 @@ Label RestrictedDelaunay::label_of(const std::array<VertexId, 4>& vertices, cons
 
 /// To as many cells and vertices as the triangulation has numbers for.
 void RestrictedDelaunay::grow() {
-  if (cell_capacity() > labels_.size()) labels_.resize(cell_capacity());
+  labels_.grow_to(cell_capacity());
   balls_.grow_to(cell_capacity());
   if (vertex_capacity() > kinds_.size()) kinds_.resize(vertex_capacity(), VertexKind::kRemoved);
 }

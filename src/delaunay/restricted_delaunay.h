@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/page_array.h"
 #include "core/parallel.h"
 #include "core/team.h"
 #include "delaunay/delaunay3.h"
@@ -87,6 +88,11 @@ class RestrictedDelaunay {
   const SurfaceBall* ball(FacetId facet) const { return balls_.find(facet); }
   /// Whether any facet of the cell has a computed ball.
   bool has_balls(CellId cell) const { return balls_.any(cell); }
+  /// As if none had been computed.
+  void drop_balls() {
+    balls_.clear();
+    lane_.balls = {};
+  }
   /// Computes and keeps the surface Delaunay ball. pre: bipolar(facet).
   const SurfaceBall& compute_ball(FacetId facet);
   /// A crossing of the dual edge between two Voronoi vertices of different labels; the same from both sides.
@@ -145,7 +151,7 @@ class RestrictedDelaunay {
   mutable PerThread<Worker> workers_;
   Team team_{thread_count()};
   Delaunay3 delaunay_;
-  std::vector<Label> labels_;
+  PageArray<Label> labels_;
   std::vector<VertexKind> kinds_;
   SurfaceBalls balls_;
   WalledRegion aside_;

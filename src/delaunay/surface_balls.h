@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/page_array.h"
 #include "delaunay/ids.h"
 #include "delvox/core/geometry.h"
 
@@ -26,8 +27,18 @@ class SurfaceBalls {
 
   /// Places for the cells up to `capacity`.
   void grow_to(std::size_t capacity) {
-    if (capacity > entries_.size()) entries_.resize(capacity, kNone);
+    const std::size_t before = entries_.size();
+    entries_.grow_to(capacity);
+    for (std::size_t cell = before; cell < capacity; ++cell) entries_[cell] = kNone;
   }
+  /// Drops all balls and frees their memory. pre: no room is in use.
+  void clear() {
+    for (std::size_t cell = 0; cell < entries_.size(); ++cell) entries_[cell] = kNone;
+    numbers_.free();
+    balls_.free();
+    free_ = Room();
+  }
+
   bool any(CellId cell) const { return entries_[cell] != kNone; }
   const SurfaceBall* find(FacetId facet) const {
     const std::uint32_t number = number_of(facet);
@@ -88,22 +99,22 @@ class SurfaceBalls {
 
   template <class T>
   static void fill(std::vector<std::uint32_t>& room, std::size_t count, std::vector<std::uint32_t>& unused,
-                   std::vector<T>& all) {
+                   PageArray<T>& all) {
     constexpr std::size_t kSpare = 16;
     if (room.size() >= count) return;
     while (room.size() < count + kSpare) {
       if (unused.empty()) {
         room.push_back(static_cast<std::uint32_t>(all.size()));
-        all.emplace_back();
+        all.grow_to(all.size() + 1);
       } else {
         room.push_back(take(unused));
       }
     }
   }
 
-  std::vector<std::uint32_t> entries_;                 // per cell: its place in numbers_
-  std::vector<std::array<std::uint32_t, 4>> numbers_;  // per facet of such a cell: its ball
-  std::vector<SurfaceBall> balls_;
+  PageArray<std::uint32_t> entries_;                 // per cell: its place in numbers_
+  PageArray<std::array<std::uint32_t, 4>> numbers_;  // per facet of such a cell: its ball
+  PageArray<SurfaceBall> balls_;
   Room free_;
 };
 

@@ -24,6 +24,7 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
   budget.end_stage();
 
   refinement.report_unmet();
+  refinement.retire();
   SurfaceMesh mesh = extract_surface(refinement.delaunay());  // step 5
   mesh.info.promises = promises_of(options.surface);
   withdraw_unmet(report, mesh.info.promises);

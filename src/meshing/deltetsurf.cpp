@@ -37,6 +37,7 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
   budget.end_stage();
 
   refinement.report_unmet();
+  refinement.retire();
   TetMesh mesh = extract_tets(refinement.delaunay(), refinement.deep() ? &*refinement.deep() : nullptr);  // step 8
   mesh.info.promises = promises_of(options.surface, options.tets);
   withdraw_unmet(report, mesh.info.promises);

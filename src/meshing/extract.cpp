@@ -1,6 +1,7 @@
 #include "meshing/extract.h"
 
 #include <atomic>
+#include <numeric>
 
 #include "core/parallel.h"
 #include "delaunay/restricted_triangles.h"
@@ -18,10 +19,10 @@ class Numbering {
 
   /// Beside other calls: whoever uses a vertex writes the same.
   void use(VertexId vertex) { std::atomic_ref(used_[vertex]).store(1, std::memory_order_relaxed); }
-  /// Once all are known: their points.
-  std::vector<Point3> count() {
+  /// Once all are known: their points, with room for so many more.
+  std::vector<Point3> count(std::size_t more) {
     std::vector<Point3> points;
-    points.reserve(delaunay_.vertex_count());
+    points.reserve(delaunay_.vertex_count() + more);
     for (VertexId v = 0; v < used_.size(); ++v) {
       if (used_[v] == 0) continue;
       numbers_[v] = static_cast<std::uint32_t>(points.size());
@@ -45,27 +46,54 @@ std::vector<FacetId> outer_triangles(const RestrictedDelaunay& delaunay) {
   return triangles;
 }
 
-std::vector<CellId> inside_cells(const RestrictedDelaunay& delaunay) {
-  return gather_chunks<CellId>(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end, auto& cells) {
-    for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
-      const bool inside = delaunay.stamp(cell) != 0 && delaunay.label(cell) != 0;
-      if (inside && !delaunay.placeholder(cell)) cells.push_back(cell);
-    }
-  });
+/// visit(cell) for the chunk's cells inside the domain that are not placeholders.
+template <class Visit>
+void for_each_inside(const RestrictedDelaunay& delaunay, std::size_t begin, std::size_t end, const Visit& visit) {
+  for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
+    if (delaunay.stamp(cell) != 0 && delaunay.label(cell) != 0 && !delaunay.placeholder(cell)) visit(cell);
+  }
 }
 
-/// As triangles or tets, by output numbers.
-template <std::size_t N, class Simplex>
-std::vector<std::array<std::uint32_t, N>> numbered(const RestrictedDelaunay& delaunay, const Numbering& number,
-                                                   const std::vector<Simplex>& simplices) {
-  std::vector<std::array<std::uint32_t, N>> result(simplices.size());
-  for_each_chunk(simplices.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto v = delaunay.vertices(simplices[i]);
-      for (std::size_t corner = 0; corner < N; ++corner) result[i][corner] = number(v[corner]);
-    }
+/// Uses the vertices of the cells inside; where each chunk's cells begin among all, and their number at the end.
+std::vector<std::size_t> use_inside(const RestrictedDelaunay& delaunay, Numbering& number) {
+  const auto counts = map_chunks(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::size_t count = 0;
+    for_each_inside(delaunay, begin, end, [&](CellId cell) {
+      ++count;
+      for (VertexId v : delaunay.vertices(cell)) number.use(v);
+    });
+    return count;
   });
-  return result;
+  std::vector<std::size_t> first(counts.size() + 1, 0);
+  std::partial_sum(counts.begin(), counts.end(), first.begin() + 1);
+  return first;
+}
+
+template <class Simplex>
+auto numbered(const RestrictedDelaunay& delaunay, const Numbering& number, Simplex simplex) {
+  auto corners = delaunay.vertices(simplex);
+  for (auto& corner : corners) corner = number(corner);
+  return corners;
+}
+
+std::vector<Triangle> numbered_triangles(const RestrictedDelaunay& delaunay, const Numbering& number,
+                                         const std::vector<FacetId>& facets) {
+  std::vector<Triangle> triangles(facets.size());
+  for_each_chunk(facets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) triangles[i] = numbered(delaunay, number, facets[i]);
+  });
+  return triangles;
+}
+
+void add_inside(const RestrictedDelaunay& delaunay, const Numbering& number, const std::vector<std::size_t>& first,
+                TetMesh& mesh) {
+  for_each_chunk(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::size_t next = first[begin / kChunk];
+    for_each_inside(delaunay, begin, end, [&](CellId cell) {
+      mesh.tets[next] = numbered(delaunay, number, cell);
+      mesh.regions[next++] = delaunay.label(cell);
+    });
+  });
 }
 
 /// The vertices at deep tets. Others of the shell may be gone by now.
@@ -79,13 +107,10 @@ void use_shell(const DeepLattice& deep, Numbering& number) {
   });
 }
 
-void add_deep(const DeepLattice& deep, const Numbering& number, TetMesh& mesh) {
+void add_deep(const DeepLattice& deep, const Numbering& number, std::size_t first_tet, TetMesh& mesh) {
   const auto first = static_cast<std::uint32_t>(mesh.points.size());
-  const std::size_t first_tet = mesh.tets.size();
   const auto shell = static_cast<std::uint32_t>(deep.shell.size());
   mesh.points.insert(mesh.points.end(), deep.points.begin(), deep.points.end());
-  mesh.tets.resize(first_tet + deep.tets.size());
-  mesh.regions.resize(mesh.tets.size());
   for_each_chunk(deep.tets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       for (std::size_t i = 0; i < 4; ++i) {
@@ -107,27 +132,22 @@ SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay) {
   for (FacetId facet : triangles) {
     for (VertexId v : delaunay.vertices(facet)) number.use(v);
   }
-  mesh.points = number.count();
-  mesh.triangles = numbered<3>(delaunay, number, triangles);
+  mesh.points = number.count(0);
+  mesh.triangles = numbered_triangles(delaunay, number, triangles);
   return mesh;
 }
 
 TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep) {
   TetMesh mesh;
   Numbering number(delaunay);
-  const std::vector<CellId> cells = inside_cells(delaunay);
-  mesh.regions.resize(cells.size());
-  for_each_chunk(cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      mesh.regions[i] = delaunay.label(cells[i]);
-      for (VertexId v : delaunay.vertices(cells[i])) number.use(v);
-    }
-  });
+  const std::vector<std::size_t> first = use_inside(delaunay, number);
   if (deep != nullptr) use_shell(*deep, number);
-  mesh.points = number.count();
-  mesh.tets = numbered<4>(delaunay, number, cells);
-  if (deep != nullptr) add_deep(*deep, number, mesh);
-  mesh.boundary = numbered<3>(delaunay, number, outer_triangles(delaunay));
+  mesh.points = number.count(deep != nullptr ? deep->points.size() : 0);
+  mesh.tets.resize(first.back() + (deep != nullptr ? deep->tets.size() : 0));
+  mesh.regions.resize(mesh.tets.size());
+  add_inside(delaunay, number, first, mesh);
+  if (deep != nullptr) add_deep(*deep, number, first.back(), mesh);
+  mesh.boundary = numbered_triangles(delaunay, number, outer_triangles(delaunay));
   mesh.on_surface.assign(mesh.points.size(), 0);
   for (const Triangle& triangle : mesh.boundary) {
     for (std::uint32_t vertex : triangle) mesh.on_surface[vertex] = 1;

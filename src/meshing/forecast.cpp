@@ -30,7 +30,7 @@ constexpr Costs kSurfaceCosts{
     .triangles = {.surface = 1.7},
     .tets = {},
     .seconds = {.surface = 10e-6, .thin = 14e-6, .samples = 0.13e-6},
-    .bytes = {.surface = 730, .samples = 13, .constant = 3.6e6},
+    .bytes = {.surface = 730, .samples = 13, .constant = 15e6},
 };
 // With an interior lattice, whose deep part is not inserted.
 constexpr Costs kTetCosts{
@@ -38,7 +38,7 @@ constexpr Costs kTetCosts{
     .triangles = {.surface = 1.72},
     .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.13},
     .seconds = {.surface = 10e-6, .graded = 3.8e-6, .volume = 3.8e-6, .deep = -2e-6, .thin = 15e-6, .samples = 0.15e-6},
-    .bytes = {.surface = 580, .graded = 410, .volume = 520, .deep = -285, .samples = 27, .constant = 2e6},
+    .bytes = {.surface = 580, .graded = 410, .volume = 440, .deep = -240, .samples = 27, .constant = 14e6},
 };
 // Without, where the cell size varies.
 constexpr Costs kVaryingTetCosts{
@@ -46,7 +46,7 @@ constexpr Costs kVaryingTetCosts{
     .triangles = {.surface = 1.72},
     .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.75},
     .seconds = {.surface = 10e-6, .graded = 3.8e-6, .volume = 5.3e-6, .thin = 15e-6, .samples = 0.15e-6},
-    .bytes = {.surface = 580, .graded = 410, .volume = 780, .samples = 27, .constant = 2e6},
+    .bytes = {.surface = 580, .graded = 410, .volume = 700, .samples = 27, .constant = 14e6},
 };
 
 Estimate estimate(const Costs& costs, const SizeIntegrals& sizes, const MeasuredDomain& domain) {

@@ -44,6 +44,8 @@ class Refinement {
 
   /// Tells the report what could not be met.
   void report_unmet();
+  /// Frees what the mesh is not made of, before it is copied out: queues, landmarks, surface balls.
+  void retire();
 
   const RestrictedDelaunay& delaunay() const { return delaunay_; }
   /// The part of the mesh that is written down without being inserted, if any.

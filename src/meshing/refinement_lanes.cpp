@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <type_traits>
 #include <utility>
 
 #include "core/parallel.h"
@@ -158,6 +159,18 @@ void Refinement::collect(RefinementLane& lane) {
   lane.dirty.clear();
   lane.changes.clear();
   delaunay_.clear_out(lane.lane);
+}
+
+void Refinement::retire() {
+  const auto clear = [](auto& member) { member = std::remove_reference_t<decltype(member)>(); };
+  clear(queues_);
+  clear(lanes_);
+  clear(dirty_);
+  clear(is_dirty_);
+  clear(watch_);
+  clear(landmark_places_);
+  clear(since_edges_);
+  delaunay_.drop_balls();
 }
 
 /// Finds out what is to be done next, and claims what that touches: steps 2 and 3 first, step 7 only if no facet waits.

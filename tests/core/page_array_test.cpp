@@ -55,5 +55,16 @@ TEST(PageArray, NeverShrinksButForgetsAllOnClear) {
   EXPECT_EQ(array[5], 42);  // what grows again starts with what was there
 }
 
+TEST(PageArray, StartsAfreshWhenItHasGivenItsPagesBack) {
+  PageArray<int> array;
+  array.free();
+  array.grow_to(10);
+  array[5] = 42;
+  array.free();
+  EXPECT_EQ(array.size(), 0u);
+  array.grow_to(10);
+  EXPECT_EQ(array[5], 0);
+}
+
 }  // namespace
 }  // namespace delvox
