@@ -8,12 +8,19 @@
 #include "delvox/core/mesh.h"
 #include "delvox/core/size_field.h"
 #include "delvox/oracle/oracle.h"
+#include "delvox/oracle/smooth_function.h"
 #include "meshing_options.h"
 #include "patient_frame.h"
 #include "report_json.h"
 #include "stopwatch.h"
 
 namespace delvox::tools {
+
+/// A domain {function <= 0} inside a box.
+struct SmoothDomain {
+  std::unique_ptr<SmoothFunction> function;
+  Box3 box;
+};
 
 /// What a meshing verb meshes, as the steps of a run see it. Coordinates are those of the input until the run's end.
 class MeshingDomain {
@@ -45,6 +52,8 @@ class MeshingDomain {
 
   /// The oracle for a run at `size`. Throws NothingToMesh if nothing is left at that size.
   virtual std::unique_ptr<Oracle> make_oracle(const SizeField& size, Stopwatch& watch) = 0;
+  /// For DelSurf2, if the domain can be had as that.
+  virtual std::optional<SmoothDomain> smooth() const { return std::nullopt; }
   /// Whether a larger size may have nothing to mesh where a smaller one has.
   virtual bool may_vanish() const { return false; }
 

@@ -31,6 +31,26 @@ void add_size_options(CLI::App& app, MeshingOptions& options) {
       ->type_name("G");
 }
 
+void add_algorithm_option(CLI::App& app, MeshingOptions& options) {
+  app.add_option("--algorithm", options.algorithm,
+                 "delsurf: as fine as --size; delsurf2: as fine as the topology asks, of formulas only, and no finer "
+                 "unless --size says so")
+      ->check(CLI::IsMember({"delsurf", "delsurf2"}))
+      ->capture_default_str()
+      ->type_name("NAME");
+}
+
+/// DelSurf2 asks for a smooth function, and nothing foretells what it takes.
+void check_algorithm(const MeshingOptions& options) {
+  if (options.algorithm != "delsurf2") return;
+  if (options.implicit.empty()) {
+    throw OptionError("--algorithm delsurf2: needs a smooth formula, --implicit; for volumes there is delsurf");
+  }
+  if (!options.max_memory.empty()) {
+    throw OptionError("--max-memory: what delsurf2 takes cannot be forecast; --max-vertices limits it");
+  }
+}
+
 void add_shape_options(CLI::App& app, MeshingOptions& options) {
   app.add_option("--min-angle", options.min_angle_degrees, "Lower bound on the angles of surface triangles, 0 to 30")
       ->check(CLI::Range(0.0, 30.0))
@@ -141,6 +161,7 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   } else {
     add_unit_option(app, options.output.unit);
   }
+  if (options.kind == MeshKind::kSurface && options.input == InputKind::kVolume) add_algorithm_option(app, options);
   add_size_options(app, options);
   add_shape_options(app, options);
   if (options.input != InputKind::kPolygons) add_volume_options(app, options);
@@ -153,6 +174,7 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
 }
 
 void decide_input(const CLI::App& app, MeshingOptions& options) {
+  check_algorithm(options);
   const bool polygons = is_mesh_path(options.volume.path);
   if (options.input == InputKind::kVolume && polygons) {
     throw OptionError(options.volume.path + ": is a polygon surface, no volume; delvox remesh is for those");

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "oracle/interval.h"
+#include "delvox/oracle/interval.h"
 
 namespace delvox {
 

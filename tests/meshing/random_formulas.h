@@ -1,0 +1,190 @@
+#pragma once
+
+#include <cstdio>
+#include <optional>
+#include <string>
+
+#include "delvox/oracle/formula.h"
+#include "delvox/volume/voxel_topology.h"
+#include "support/random.h"
+
+namespace delvox::test {
+
+/// A smooth formula whose surface lies inside the box, and what that surface is, known apart from the meshers.
+struct KnownFormula {
+  std::string text;
+  Box3 box;
+  VoxelTopology topology;
+  long genus() const { return static_cast<long>(topology.surface_components) - topology.euler / 2; }
+};
+
+/// Writes random smooth formulas of several kinds for the box [-2, 2]^3.
+class FormulaWriter {
+ public:
+  explicit FormulaWriter(Random& random) : random_(random) {}
+
+  std::string write() {
+    switch (random_.below(6)) {
+      case 0: return blobs();
+      case 1: return waves();
+      case 2: return product_of_rings();
+      case 3: return nested();
+      case 4: return handles();
+      default: return quartic();
+    }
+  }
+
+ private:
+  std::string number(double value) const {
+    char text[32];
+    std::snprintf(text, sizeof text, value < 0 ? "(%.4f)" : "%.4f", value);
+    return text;
+  }
+  std::string between(double low, double high) { return number(random_.between(low, high)); }
+
+  /// A linear form; `unit`: of a random direction.
+  std::string linear(const Vector3& a, const Point3& from) const {
+    const std::string x = "(x-" + number(from.x) + ")", y = "(y-" + number(from.y) + ")", z = "(z-" + number(from.z) + ")";
+    return "(" + number(a.x) + "*" + x + "+" + number(a.y) + "*" + y + "+" + number(a.z) + "*" + z + ")";
+  }
+  std::string squared_distance(const Point3& from) const {
+    return "((x-" + number(from.x) + ")^2+(y-" + number(from.y) + ")^2+(z-" + number(from.z) + ")^2)";
+  }
+  Point3 center(double reach) { return random_.in({{-reach, -reach, -reach}, {reach, reach, reach}}); }
+
+  /// Metaballs, some of them negative.
+  std::string blobs() {
+    const int count = 3 + random_.below(6);
+    std::string sum = between(0.25, 0.6);
+    for (int i = 0; i < count; ++i) {
+      const bool hollow = i > 2 && random_.below(3) == 0;
+      sum += std::string(hollow ? "+" : "-") + between(0.7, 1.2) + "*exp(-" + between(2.5, 8) + "*" +
+             squared_distance(center(1)) + ")";
+    }
+    return sum;
+  }
+
+  /// Trigonometric, held together by a power of the distance from the middle.
+  std::string waves() {
+    std::string sum = "(x^2+y^2+z^2)^2/" + between(5, 9) + "-" + between(0.2, 1);
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 k = random_.between(2, 4.5) * random_.direction(), l = random_.between(2, 4.5) * random_.direction();
+      sum += "+" + between(0.6, 1.2) + "*sin(" + linear(k, {}) + ")*cos(" + linear(l, center(1)) + ")";
+    }
+    return sum;
+  }
+
+  /// Zero on a ring, positive elsewhere.
+  std::string ring(const Point3& c, const Vector3& axis, double radius) {
+    return "((" + squared_distance(c) + "-" + number(radius * radius) + ")^2+" + number(4 * radius * radius) + "*" +
+           linear(axis, c) + "^2)";
+  }
+
+  /// Two or three rings, linked, apart or grown together.
+  std::string product_of_rings() {
+    const int count = 2 + random_.below(2);
+    std::string product;
+    for (int i = 0; i < count; ++i) {
+      const double radius = random_.between(0.5, 0.9);
+      const double thickness = random_.between(0.1, 0.25);
+      const std::string tube =
+          "(" + ring(center(0.6), random_.direction(), radius) + "-" + number(4 * radius * radius * thickness * thickness) + ")";
+      product += (i > 0 ? "*" : "") + tube;
+    }
+    return product + (random_.below(2) == 0 ? "-" : "+") + between(0.002, 0.03);
+  }
+
+  /// Shells in each other, wavy.
+  std::string nested() {
+    const double inner = random_.between(0.3, 0.5), middle = inner + random_.between(0.25, 0.4);
+    const double outer = middle + random_.between(0.25, 0.4);
+    std::string product;
+    for (double radius : {inner, middle, outer}) {
+      product += (product.empty() ? "" : "*") + std::string("(") + squared_distance(center(0.05)) + "+" +
+                 between(-0.05, 0.05) + "*sin(" + between(2, 5) + "*x)-" + number(radius * radius) + ")";
+    }
+    return product;
+  }
+
+  /// A plate with holes: planar curves of a chain of rings, thickened.
+  std::string handles() {
+    const int holes = 2 + random_.below(5);
+    std::string product;
+    const double turn = random_.between(0, 1);
+    for (int i = 0; i < holes; ++i) {
+      const double angle = 2 * std::numbers::pi * (i + turn) / holes;
+      const double reach = holes < 4 ? 0.45 : 0.8, radius = random_.between(0.4, 0.55);
+      const std::string circle = "((x-" + number(reach * std::cos(angle)) + ")^2+(y-" +
+                                 number(reach * std::sin(angle)) + ")^2-" + number(radius * radius) + ")";
+      product += (i > 0 ? "*" : "") + circle;
+    }
+    return "(" + product + ")^2+" + between(0.3, 1) + "*z^2-" + between(0.002, 0.02);
+  }
+
+  /// A quartic with random lower terms.
+  std::string quartic() {
+    std::string sum = "x^4+y^4+z^4-" + between(0.2, 0.8);
+    for (const char* term : {"x^2", "y^2", "z^2"}) sum += "-" + between(0.8, 2) + "*" + std::string(term);
+    for (const char* term : {"x*y", "y*z", "z*x", "x*y*z", "x^2*y", "y^2*z", "z^2*x"}) {
+      sum += "+" + between(-0.5, 0.5) + "*" + std::string(term);
+    }
+    return sum + "+" + between(0.3, 1.2);
+  }
+
+  Random& random_;
+};
+
+/// The formula on n^3 points of the box, positive inside.
+inline Volume sampled(const Formula& formula, const Box3& box, int n) {
+  VolumeHeader header;
+  header.dims = {n, n, n};
+  for (int axis = 0; axis < 3; ++axis) {
+    header.index_to_world.rows[axis][axis] = (box.max[axis] - box.min[axis]) / (n - 1);
+    header.index_to_world.rows[axis][3] = box.min[axis];
+  }
+  std::vector<float> samples;
+  for (int k = 0; k < n; ++k) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        samples.push_back(static_cast<float>(-formula.value(header.index_to_world({double(i), double(j), double(k)}))));
+      }
+    }
+  }
+  return Volume(header, samples);
+}
+
+/// What the surface of a formula is, by exact counts on trilinear functions (voxel_topology.h) that agree over two
+/// doublings of the grid; none if they do not, or if the domain is empty or reaches the border of the box.
+inline std::optional<VoxelTopology> topology_by_voxels(const Formula& formula, const Box3& box) {
+  std::optional<VoxelTopology> known;
+  for (int n : {41, 81, 161}) {
+    const Volume volume = sampled(formula, box, n);
+    if (!(volume.max() > 0) || !(volume.min() < 0)) return std::nullopt;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        for (int end : {0, n - 1}) {
+          if (volume.value(i, j, end) > 0 || volume.value(i, end, j) > 0 || volume.value(end, i, j) > 0) {
+            return std::nullopt;
+          }
+        }
+      }
+    }
+    VoxelTopology found = count_topology(volume, {0, false});
+    found.volume_mm3 = 0;
+    if (known && *known != found) return std::nullopt;
+    known = found;
+  }
+  return known;
+}
+
+/// The formula of that number: the first of a sequence that is not ambiguous.
+inline KnownFormula known_formula(std::uint64_t number) {
+  Random random(1000 * number + 1);
+  const Box3 box{{-2, -2, -2}, {2, 2, 2}};
+  for (;;) {
+    const std::string text = FormulaWriter(random).write();
+    if (const auto topology = topology_by_voxels(Formula(text), box)) return {text, box, *topology};
+  }
+}
+
+}  // namespace delvox::test
