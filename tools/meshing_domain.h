@@ -8,19 +8,13 @@
 #include "delvox/core/mesh.h"
 #include "delvox/core/size_field.h"
 #include "delvox/oracle/oracle.h"
-#include "delvox/oracle/smooth_function.h"
+#include "delvox/oracle/spline_function.h"
 #include "meshing_options.h"
 #include "patient_frame.h"
 #include "report_json.h"
 #include "stopwatch.h"
 
 namespace delvox::tools {
-
-/// A domain {function <= 0} inside a box.
-struct SmoothDomain {
-  std::unique_ptr<SmoothFunction> function;
-  Box3 box;
-};
 
 /// What a meshing verb meshes, as the steps of a run see it. Coordinates are those of the input until the run's end.
 class MeshingDomain {

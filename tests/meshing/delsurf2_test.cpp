@@ -7,6 +7,7 @@
 
 #include "delvox/core/errors.h"
 #include "delvox/oracle/formula.h"
+#include "delvox/oracle/jet.h"
 #include "mesh_expectations.h"
 
 namespace delvox {
@@ -103,6 +104,18 @@ TEST(DelSurf2, MeetsASizeAndADeviationIfAsked) {
         test::circumcenter(close.points[t[0]], close.points[t[1]], close.points[t[2]]);
     EXPECT_NEAR(norm(middle), 1, 0.01 + 1e-9);
   }
+}
+
+TEST(DelSurf2, MeshesCode) {
+  const auto torus = make_smooth_function_of([](const auto& x, const auto& y, const auto& z) {
+    const auto rr = x * x + y * y;
+    return power(rr + z * z + 0.91, 2) - 4.0 * rr;
+  });
+  RunReport report;
+  const SurfaceMesh mesh = delsurf2(*torus, kBox, {}, report);
+  test::expect_finished(report);
+  test::expect_closed_manifold(mesh);
+  EXPECT_EQ(test::topology_of(mesh).euler, 0);
 }
 
 TEST(DelSurf2, RunsGiveTheSameMesh) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -153,26 +155,68 @@ inline Volume sampled(const Formula& formula, const Box3& box, int n) {
   return Volume(header, samples);
 }
 
+/// How far trilinear interpolation is off in the middle of the cells that the surface crosses, at most.
+inline double interpolation_error(const Formula& formula, const Volume& volume) {
+  const int n = volume.dims()[0];
+  const std::vector<float> samples = volume.samples();
+  const auto at = [&](int i, int j, int k) { return samples[static_cast<std::size_t>((k * n + j) * n + i)]; };
+  double error = 0;
+  for (int k = 0; k + 1 < n; ++k) {
+    for (int j = 0; j + 1 < n; ++j) {
+      for (int i = 0; i + 1 < n; ++i) {
+        double sum = 0;
+        int inside = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+          const float sample = at(i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2));
+          sum += static_cast<double>(sample);
+          inside += sample > 0;
+        }
+        if (inside == 0 || inside == 8) continue;
+        const Point3 middle = volume.header().index_to_world({i + 0.5, j + 0.5, k + 0.5});
+        error = std::max(error, std::abs(-formula.value(middle) - sum / 8));
+      }
+    }
+  }
+  return error;
+}
+
+/// A count without the volume, which moves as the grid gets finer.
+inline VoxelTopology count_at(const Volume& volume, double isovalue) {
+  VoxelTopology found = count_topology(volume, {isovalue, false});
+  found.volume_mm3 = 0;
+  return found;
+}
+
+/// Is the domain neither empty nor everything, and away from the border of the volume?
+inline bool lies_inside(const Volume& volume) {
+  if (!(volume.max() > 0) || !(volume.min() < 0)) return false;
+  const int n = volume.dims()[0];
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      for (int end : {0, n - 1}) {
+        if (std::max({volume.value(i, j, end), volume.value(i, end, j), volume.value(end, i, j)}) > 0) return false;
+      }
+    }
+  }
+  return true;
+}
+
 /// What the surface of a formula is, by exact counts on trilinear functions (voxel_topology.h) that agree over two
-/// doublings of the grid; none if they do not, or if the domain is empty or reaches the border of the box.
+/// doublings of the grid, and if the level is moved up and down by twice what interpolation errs on the finest; none if
+/// they do not, or if the domain is empty or reaches the border of the box.
 inline std::optional<VoxelTopology> topology_by_voxels(const Formula& formula, const Box3& box) {
   std::optional<VoxelTopology> known;
   for (int n : {41, 81, 161}) {
     const Volume volume = sampled(formula, box, n);
-    if (!(volume.max() > 0) || !(volume.min() < 0)) return std::nullopt;
-    for (int i = 0; i < n; ++i) {
-      for (int j = 0; j < n; ++j) {
-        for (int end : {0, n - 1}) {
-          if (volume.value(i, j, end) > 0 || volume.value(i, end, j) > 0 || volume.value(end, i, j) > 0) {
-            return std::nullopt;
-          }
-        }
-      }
-    }
-    VoxelTopology found = count_topology(volume, {0, false});
-    found.volume_mm3 = 0;
+    if (!lies_inside(volume)) return std::nullopt;
+    const VoxelTopology found = count_at(volume, 0);
     if (known && *known != found) return std::nullopt;
     known = found;
+    if (n < 161) continue;
+    const double error = 2 * interpolation_error(formula, volume);
+    for (double level : {-error, error}) {
+      if (count_at(volume, level) != found) return std::nullopt;
+    }
   }
   return known;
 }
