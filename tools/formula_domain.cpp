@@ -56,7 +56,7 @@ class FormulaDomain final : public MeshingDomain {
     return watch.timed("oracle", [&] { return make_formula_oracle(formula_, box_, resolution_for(size.minimum())); });
   }
 
-  std::optional<SmoothDomain> smooth() const override { return SmoothDomain{make_smooth_function(formula_), box_}; }
+  std::optional<SmoothDomain> smooth() const override { return SmoothDomain{make_smooth_function(formula_), box_, {}}; }
 
   void finish(Mesh&) const override {}
   std::string how_to_shrink() const override { return "take a tighter --box"; }

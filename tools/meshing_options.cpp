@@ -33,18 +33,18 @@ void add_size_options(CLI::App& app, MeshingOptions& options) {
 
 void add_algorithm_option(CLI::App& app, MeshingOptions& options) {
   app.add_option("--algorithm", options.algorithm,
-                 "delsurf: as fine as --size; delsurf2: as fine as the topology asks, of formulas only, and no finer "
-                 "unless --size says so")
+                 "delsurf: as fine as --size; delsurf2: as fine as the topology asks, and no finer unless --size says "
+                 "so, of smooth formulas and of volumes of up to 32 x 32 x 32 voxels, interpolated by a spline")
       ->check(CLI::IsMember({"delsurf", "delsurf2"}))
       ->capture_default_str()
       ->type_name("NAME");
 }
 
-/// DelSurf2 asks for a smooth function, and nothing foretells what it takes.
-void check_algorithm(const MeshingOptions& options) {
+/// DelSurf2 takes all components of a surface without a border, and nothing foretells what that takes.
+void check_algorithm(const CLI::App& app, const MeshingOptions& options) {
   if (options.algorithm != "delsurf2") return;
-  if (options.implicit.empty()) {
-    throw OptionError("--algorithm delsurf2: needs a smooth formula, --implicit; for volumes there is delsurf");
+  for (const char* name : {"--largest", "--min-component", "--fill-cavities", "--border"}) {
+    if (app.count(name) > 0) throw OptionError(std::string(name) + ": not with --algorithm delsurf2");
   }
   if (!options.max_memory.empty()) {
     throw OptionError("--max-memory: what delsurf2 takes cannot be forecast; --max-vertices limits it");
@@ -174,7 +174,7 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
 }
 
 void decide_input(const CLI::App& app, MeshingOptions& options) {
-  check_algorithm(options);
+  check_algorithm(app, options);
   const bool polygons = is_mesh_path(options.volume.path);
   if (options.input == InputKind::kVolume && polygons) {
     throw OptionError(options.volume.path + ": is a polygon surface, no volume; delvox remesh is for those");

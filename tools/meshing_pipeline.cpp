@@ -259,7 +259,7 @@ void MeshingRun::mesh_at(const SizeField& size) {
 void MeshingRun::mesh_by_topology() {
   const std::optional<SmoothDomain> domain = domain_->smooth();
   mesh_ = watch_.timed("meshing", [&] {
-    return delsurf2(*domain->function, domain->box, {surface_criteria(size_), control()}, run_report_);
+    return delsurf2(*domain, {surface_criteria(size_), control()}, run_report_);
   });
   progress_.clear();
   tell_effort();

@@ -230,4 +230,14 @@ SurfaceMesh delsurf2(const SmoothFunction& h, const Box3& box, const DelSurf2Opt
   return mesh;
 }
 
+SurfaceMesh delsurf2(const SmoothDomain& domain, const DelSurf2Options& options, RunReport& report) {
+  SurfaceMesh mesh = delsurf2(*domain.function, domain.box, options, report);
+  for (Point3& p : mesh.points) p = domain.to_world(p);
+  for (Unmet& unmet : report.unmet) unmet.where = domain.to_world(unmet.where);
+  if (domain.to_world.determinant() < 0) {
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  }
+  return mesh;
+}
+
 }  // namespace delvox

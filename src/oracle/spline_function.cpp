@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -12,8 +13,11 @@ namespace delvox {
 namespace {
 
 constexpr int kDegree = 5, kSupport = kDegree + 1;
-/// Layers of padding around the image, and coefficients known beyond them.
+/// Layers of padding before the image, the least behind it, and coefficients known beyond them.
 constexpr int kPadding = 4, kMargin = 4;
+/// In samples: boxes that reach no further into a cell are taken for outside it. The polynomials of neighbouring cells
+/// and their third derivatives agree there to far less than what rounding can make of them.
+constexpr double kSnap = 1e-9;
 
 using Row = std::array<double, kSupport>;
 
@@ -87,7 +91,10 @@ void interpolate_line(double* samples, std::size_t stride, int n) {
 class SplineFunction final : public SmoothFunction {
  public:
   SplineFunction(const Volume& volume, const LevelSet& level_set) : spacing_(volume.header().spacing()) {
-    for (int axis = 0; axis < 3; ++axis) samples_[axis] = volume.dims()[axis] + 2 * kPadding;
+    // A power of two of cells: then boxes of an octree lie within cells, or are made of whole ones.
+    const auto& dims = volume.dims();
+    const int most = std::max({dims[0], dims[1], dims[2]}) + 2 * kPadding - 1;
+    samples_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(most))) + 1;
     interpolate(padded(volume, level_set));
   }
 
@@ -96,7 +103,7 @@ class SplineFunction final : public SmoothFunction {
     Box3 box;
     for (int axis = 0; axis < 3; ++axis) {
       box.min[axis] = -kPadding * spacing_[axis];
-      box.max[axis] = (samples_[axis] - 1 - kPadding) * spacing_[axis];
+      box.max[axis] = (samples_ - 1 - kPadding) * spacing_[axis];
     }
     return box;
   }
@@ -114,12 +121,12 @@ class SplineFunction final : public SmoothFunction {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       place[axis] = box[axis] / Interval(spacing_[static_cast<int>(axis)]) + Interval(kPadding);
       if (box[axis].low == box[axis].high) place[axis] = place[axis].middle();
-      if (!(place[axis].low > 1 - kMargin && place[axis].high < samples_[axis] - 2 + kMargin)) {
+      if (!(place[axis].low > 1 - kMargin && place[axis].high < samples_ - 2 + kMargin)) {
         std::fill(results, results + kResults[order], Interval::all());
         return false;
       }
-      first[axis] = static_cast<int>(std::floor(place[axis].low));
-      last[axis] = std::max(first[axis], static_cast<int>(std::ceil(place[axis].high)) - 1);
+      first[axis] = static_cast<int>(std::floor(place[axis].low + kSnap));
+      last[axis] = std::max(first[axis], static_cast<int>(std::ceil(place[axis].high - kSnap)) - 1);
       cells *= last[axis] - first[axis] + 1;
     }
     constexpr int kFewCells = 8;
@@ -137,38 +144,45 @@ class SplineFunction final : public SmoothFunction {
   /// An enclosure of no number.
   static Interval nothing() { return {Interval::all().high, Interval::all().low}; }
 
-  /// Signed samples with some layers of padding, the outermost repeated: level - g, so that inside is at most 0.
+  /// level - g, so that inside is at most 0, with layers of padding that rise outward: far enough that no oscillation
+  /// of the spline comes back to 0.
   std::vector<double> padded(const Volume& volume, const LevelSet& level_set) const {
     const std::array<int, 3> size{volume.dims()[0] + 2, volume.dims()[1] + 2, volume.dims()[2] + 2};
     std::vector<float> once(static_cast<std::size_t>(size[0]) * size[1] * size[2]);
     copy_padded_block(volume, level_set, {-1, -1, -1}, size, once.data());
+    double highest = 0;
+    for (float g : once) highest = std::max(highest, std::abs(level_set.level - static_cast<double>(g)));
     std::vector<double> all;
-    for_each({0, 0, 0}, {samples_[0] - 1, samples_[1] - 1, samples_[2] - 1}, [&](const std::array<int, 3>& at) {
+    for_each({0, 0, 0}, {samples_ - 1, samples_ - 1, samples_ - 1}, [&](const std::array<int, 3>& at) {
       std::array<std::size_t, 3> from;
+      int beyond = 0;
       for (int axis = 0; axis < 3; ++axis) {
-        from[axis] = static_cast<std::size_t>(std::clamp(at[axis] - kPadding + 1, 0, size[axis] - 1));
+        const int wanted = at[axis] - kPadding + 1, there = std::clamp(wanted, 0, size[axis] - 1);
+        from[axis] = static_cast<std::size_t>(there);
+        beyond = std::max(beyond, std::abs(wanted - there));
       }
-      all.push_back(level_set.level - static_cast<double>(once[(from[2] * size[1] + from[1]) * size[0] + from[0]]));
+      const auto g = static_cast<double>(once[(from[2] * size[1] + from[1]) * size[0] + from[0]]);
+      all.push_back(level_set.level - g + highest * std::min(beyond, kPadding - 1) / (kPadding - 1));
     });
     return all;
   }
 
   void interpolate(std::vector<double> values) {
-    const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(samples_[0]),
-                                            static_cast<std::size_t>(samples_[0]) * samples_[1]};
+    const auto n = static_cast<std::size_t>(samples_);
+    const std::array<std::size_t, 3> stride{1, n, n * n};
     for (int axis = 0; axis < 3; ++axis) {
-      std::array<int, 3> end{samples_[0] - 1, samples_[1] - 1, samples_[2] - 1};
+      std::array<int, 3> end{samples_ - 1, samples_ - 1, samples_ - 1};
       end[axis] = 0;
       for_each({0, 0, 0}, end, [&](const std::array<int, 3>& at) {
         double* line = values.data() + at[0] * stride[0] + at[1] * stride[1] + at[2] * stride[2];
-        interpolate_line(line, stride[axis], samples_[axis]);
+        interpolate_line(line, stride[axis], samples_);
       });
     }
     double largest = 0;
-    for (int axis = 0; axis < 3; ++axis) known_[axis] = samples_[axis] + 2 * (kMargin + 2);
-    for_each({0, 0, 0}, {known_[0] - 1, known_[1] - 1, known_[2] - 1}, [&](const std::array<int, 3>& at) {
+    known_ = samples_ + 2 * (kMargin + 2);
+    for_each({0, 0, 0}, {known_ - 1, known_ - 1, known_ - 1}, [&](const std::array<int, 3>& at) {
       std::size_t from = 0;
-      for (int axis = 0; axis < 3; ++axis) from += mirrored(at[axis] - kMargin - 2, samples_[axis]) * stride[axis];
+      for (int axis = 0; axis < 3; ++axis) from += mirrored(at[axis] - kMargin - 2, samples_) * stride[axis];
       coefficients_.push_back(values[from]);
       largest = std::max(largest, std::abs(values[from]));
     });
@@ -189,7 +203,7 @@ class SplineFunction final : public SmoothFunction {
   /// The coefficient at sample (i, j, k) of the padded grid.
   const double& coefficient(int i, int j, int k) const {
     constexpr int kShift = kMargin + 2;
-    return coefficients_[(static_cast<std::size_t>(k + kShift) * known_[1] + (j + kShift)) * known_[0] + i + kShift];
+    return coefficients_[(static_cast<std::size_t>(k + kShift) * known_ + (j + kShift)) * known_ + i + kShift];
   }
 
   /// Calls visit(number, axes) for the derivatives up to an order: how often along each axis.
@@ -210,7 +224,8 @@ class SplineFunction final : public SmoothFunction {
   void enclose_in_cell(const std::array<int, 3>& cell, const IntervalBox& place, int order, Interval* results) const {
     std::array<std::array<Weights, 4>, 3> weights;
     for (int axis = 0; axis < 3; ++axis) {
-      const double a = std::max(place[axis].low - cell[axis], 0.0), b = std::min(place[axis].high - cell[axis], 1.0);
+      const double a = std::max(place[axis].low - cell[axis], -kSnap);
+      const double b = std::min(place[axis].high - cell[axis], 1 + kSnap);
       for (int d = 0; d <= order; ++d) weights[axis][d] = weights_on(a, b, d);
     }
     std::array<double, kSupport * kSupport * kSupport> c;
@@ -221,38 +236,47 @@ class SplineFunction final : public SmoothFunction {
         }
       }
     }
-    for_each_derivative(order, [&](std::size_t number, const std::array<int, 3>& d) {
-      const auto [low, high] = range_of(c, weights[0][d[0]], weights[1][d[1]], weights[2][d[2]]);
-      include(results[number], low - rounding_, high + rounding_);
-    });
+    for (int z = 0; z <= order; ++z) {
+      for (int row = 0; row < weights[2][z].count; ++row) {
+        Plane plane{};
+        for (int k = 0; k < kSupport; ++k) {
+          const double weight = weights[2][z].rows[row][k];
+          const double* layer = c.data() + k * plane.size();
+          for (std::size_t i = 0; i < plane.size(); ++i) plane[i] += weight * layer[i];
+        }
+        enclose_in_plane(plane, weights, z, order, results);
+      }
+    }
   }
 
-  /// Least and greatest Bernstein coefficient.
-  static std::pair<double, double> range_of(const std::array<double, kSupport * kSupport * kSupport>& c,
-                                            const Weights& x, const Weights& y, const Weights& z) {
-    auto [low, high] = nothing();
-    for (int kk = 0; kk < z.count; ++kk) {
-      std::array<std::array<double, kSupport>, kSupport> plane{};  // [j][i], summed along z
-      for (int k = 0; k < kSupport; ++k) {
-        const double* layer = c.data() + k * kSupport * kSupport;
-        for (int j = 0; j < kSupport; ++j) {
-          for (int i = 0; i < kSupport; ++i) plane[j][i] += z.rows[kk][k] * layer[j * kSupport + i];
-        }
-      }
-      for (int jj = 0; jj < y.count; ++jj) {
+  using Plane = std::array<double, kSupport * kSupport>;
+
+  /// What is left once a derivative along z, at one of its Bernstein coefficients, is taken.
+  void enclose_in_plane(const Plane& plane, const std::array<std::array<Weights, 4>, 3>& weights, int z, int order,
+                        Interval* results) const {
+    for (int y = 0; y <= order - z; ++y) {
+      for (int row = 0; row < weights[1][y].count; ++row) {
         Row line{};
         for (int j = 0; j < kSupport; ++j) {
-          for (int i = 0; i < kSupport; ++i) line[i] += y.rows[jj][j] * plane[j][i];
+          const double weight = weights[1][y].rows[row][j];
+          for (int i = 0; i < kSupport; ++i) line[i] += weight * plane[j * kSupport + i];
         }
-        for (int ii = 0; ii < x.count; ++ii) {
-          double sum = 0;
-          for (int i = 0; i < kSupport; ++i) sum += x.rows[ii][i] * line[i];
-          low = std::min(low, sum);
-          high = std::max(high, sum);
+        for (int x = 0; x <= order - z - y; ++x) {
+          Interval& result = results[number_of(x, y, z)];
+          for (int at = 0; at < weights[0][x].count; ++at) {
+            double coefficient = 0;
+            for (int i = 0; i < kSupport; ++i) coefficient += weights[0][x].rows[at][i] * line[i];
+            include(result, coefficient - rounding_, coefficient + rounding_);
+          }
         }
       }
     }
-    return {low, high};
+  }
+
+  /// Where SmoothFunction has the derivative taken so often along each axis.
+  static std::size_t number_of(int x, int y, int z) {
+    const int total = x + y + z;
+    return (total > 0 ? kResults[total - 1] : 0) + static_cast<std::size_t>((y + z) * (y + z + 1) / 2 + z);
   }
 
   /// Splines lie within the hull of their coefficients; those of derivatives are differences.
@@ -289,7 +313,7 @@ class SplineFunction final : public SmoothFunction {
   }
 
   Vector3 spacing_;
-  std::array<int, 3> samples_{}, known_{};
+  int samples_ = 0, known_ = 0;  // along each axis: with padding, and the coefficients
   std::vector<double> coefficients_;
   double rounding_ = 0;
 };

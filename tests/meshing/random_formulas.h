@@ -12,13 +12,20 @@
 
 namespace delvox::test {
 
+/// Formulas of any larger genus are as welcome as of this.
+inline constexpr long kMostGenus = 6;
+
 /// A smooth formula whose surface lies inside the box, and what that surface is, known apart from the meshers.
 struct KnownFormula {
   std::string text;
   Box3 box;
   VoxelTopology topology;
-  long genus() const { return static_cast<long>(topology.surface_components) - topology.euler / 2; }
 };
+
+/// Of all components together.
+inline long genus_of(const VoxelTopology& topology) {
+  return static_cast<long>(topology.surface_components) - topology.euler / 2;
+}
 
 /// Writes random smooth formulas of several kinds for the box [-2, 2]^3.
 class FormulaWriter {
@@ -203,16 +210,18 @@ inline bool lies_inside(const Volume& volume) {
 
 /// What the surface of a formula is, by exact counts on trilinear functions (voxel_topology.h) that agree over two
 /// doublings of the grid, and if the level is moved up and down by twice what interpolation errs on the finest; none if
-/// they do not, or if the domain is empty or reaches the border of the box.
-inline std::optional<VoxelTopology> topology_by_voxels(const Formula& formula, const Box3& box) {
+/// they do not, if the domain is empty or reaches the border of the box, or if the genus is not that wanted: from
+/// kMostGenus on, or exactly that.
+inline std::optional<VoxelTopology> topology_by_voxels(const Formula& formula, const Box3& box, long genus) {
   std::optional<VoxelTopology> known;
-  for (int n : {41, 81, 161}) {
+  for (int n : {31, 61, 121}) {
     const Volume volume = sampled(formula, box, n);
     if (!lies_inside(volume)) return std::nullopt;
     const VoxelTopology found = count_at(volume, 0);
+    if (std::min(genus_of(found), kMostGenus) != genus) return std::nullopt;
     if (known && *known != found) return std::nullopt;
     known = found;
-    if (n < 161) continue;
+    if (n < 121) continue;
     const double error = 2 * interpolation_error(formula, volume);
     for (double level : {-error, error}) {
       if (count_at(volume, level) != found) return std::nullopt;
@@ -221,13 +230,14 @@ inline std::optional<VoxelTopology> topology_by_voxels(const Formula& formula, c
   return known;
 }
 
-/// The formula of that number: the first of a sequence that is not ambiguous.
+/// The formula of that number: the first of a sequence that is not ambiguous, each genus in its turn.
 inline KnownFormula known_formula(std::uint64_t number) {
   Random random(1000 * number + 1);
+  const long genus = static_cast<long>(number % (kMostGenus + 1));
   const Box3 box{{-2, -2, -2}, {2, 2, 2}};
   for (;;) {
     const std::string text = FormulaWriter(random).write();
-    if (const auto topology = topology_by_voxels(Formula(text), box)) return {text, box, *topology};
+    if (const auto topology = topology_by_voxels(Formula(text), box, genus)) return {text, box, *topology};
   }
 }
 

@@ -143,11 +143,31 @@ TEST(CliFormula, DelSurf2RefusesWhatIsNotSmooth) {
   refuse({"--implicit", "sqrt(x^2+y^2)+z^2-1", kBox}, "kink");
   refuse({"--implicit", "(x^2+y^2+z^2-1)^2", kBox}, "without a normal");
   refuse({"--implicit", "x^2+y^2+z^2-9", kBox}, "border of the box");
-  refuse({"scan.nii"}, "--implicit");
+  refuse({"--implicit", "x^2+y^2+z^2-1", kBox, "--border", "close"}, "--border");
   refuse({"--implicit", "x^2+y^2+z^2-1", kBox, "--max-memory", "1G"}, "--max-memory");
   EXPECT_NE(run_on(folder, {"surface", "--help"}).out.find("delsurf2"), std::string::npos);
   EXPECT_EQ(run_on(folder, {"surface", "--implicit", "x^2+y^2+z^2-1", kBox, "--algorithm", "fast", "-o", "s.ply"}).code,
             2);
+}
+
+TEST(CliDelSurf2, MeshesASmallVolumeThroughASpline) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_on(folder, {"phantom", "torus", "-o", "torus.nii", "--dims", "16,16,16"}).code, 0);
+  const Outcome outcome = run_on(folder, {"surface", "torus.nii", "--iso", "0", "--algorithm", "delsurf2", "-o",
+                                          "torus.ply"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("genus 1"), std::string::npos) << outcome.out;
+  const Outcome one = run_on(folder, {"surface", "torus.nii", "--algorithm", "delsurf2", "--largest", "-o", "a.ply"});
+  EXPECT_EQ(one.code, 2) << one.err;
+
+  ASSERT_EQ(run_on(folder, {"phantom", "sphere", "-o", "large.nii", "--dims", "33,20,20"}).code, 0);
+  const Outcome large = run_on(folder, {"surface", "large.nii", "--iso", "0", "--algorithm", "delsurf2", "-o", "b.ply",
+                                        "--quiet"});
+  EXPECT_EQ(large.code, 2) << large.err;
+  EXPECT_NE(large.err.find("32 x 32 x 32"), std::string::npos) << large.err;
+  const Outcome crop = run_on(folder, {"surface", "large.nii", "--iso", "0", "--crop", "4:28,0:19,0:19", "--algorithm",
+                                       "delsurf2", "--min-angle", "0", "-o", "c.ply", "--quiet"});
+  EXPECT_EQ(crop.code, 0) << crop.err;
 }
 
 TEST(CliFormula, NothingInsideTheBoxIsNothingToMesh) {

@@ -23,5 +23,7 @@ struct DelSurf2Options {
 /// Throws OptionError, with the place, if the surface may reach the border of the box, or may have a kink or a point
 /// without a normal; NothingToMesh if there is certainly no surface; Cancelled.
 SurfaceMesh delsurf2(const SmoothFunction& h, const Box3& box, const DelSurf2Options& options, RunReport& report);
+/// The same where the domain lies in the world.
+SurfaceMesh delsurf2(const SmoothDomain& domain, const DelSurf2Options& options, RunReport& report);
 
 }  // namespace delvox

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 #include "delvox/core/geometry.h"
 #include "delvox/oracle/interval.h"
@@ -23,6 +24,13 @@ class SmoothFunction {
   /// The same as enclosures of what they are anywhere in a box. False if the function may have a kink, jump or pole
   /// there: then only the first result means anything.
   virtual bool enclose(const IntervalBox& box, int order, Interval* results) const = 0;
+};
+
+/// A domain {function <= 0} inside a box, and where it lies in the world.
+struct SmoothDomain {
+  std::unique_ptr<SmoothFunction> function;
+  Box3 box;
+  Affine3 to_world;  ///< an isometry from the function's coordinates, mm; it may mirror
 };
 
 }  // namespace delvox

@@ -1,18 +1,9 @@
 #pragma once
 
-#include <memory>
-
 #include "delvox/oracle/smooth_function.h"
 #include "delvox/volume/level_set.h"
 
 namespace delvox {
-
-/// A domain {function <= 0} inside a box, and where it lies in the world.
-struct SmoothDomain {
-  std::unique_ptr<SmoothFunction> function;
-  Box3 box;
-  Affine3 to_world;  ///< an isometry from the function's coordinates, mm; it may mirror
-};
 
 /// Volumes of more samples than that along an axis are refused: critical points take too long.
 inline constexpr int kMostSplineSamples = 32;
