@@ -18,12 +18,12 @@ namespace {
 /// topological_balls.h why none needs to be looked at twice.
 class TopologyDrivenRefinement {
  public:
-  TopologyDrivenRefinement(SurfaceCover& cover, const CertifiedOracle& oracle, const DelSurf2Options& options,
-                           RunReport& report)
+  TopologyDrivenRefinement(SurfaceCover& cover, const CertifiedOracle& oracle, const SurfaceCriteria& surface,
+                           RunBudget& budget, RunReport& report)
       : oracle_(oracle),
-        surface_(options.surface),
+        surface_(surface),
         report_(report),
-        budget_(options.control, report),
+        budget_(budget),
         delaunay_(oracle),
         balls_(delaunay_, cover, oracle),
         closest_(1e-8 * cover.box().diagonal()) {}
@@ -36,7 +36,6 @@ class TopologyDrivenRefinement {
   void report_unmet();
 
   const RestrictedDelaunay& delaunay() const { return delaunay_; }
-  RunBudget& budget() { return budget_; }
 
  private:
   /// A triangle of Del S, dual to a Voronoi edge.
@@ -59,7 +58,7 @@ class TopologyDrivenRefinement {
   const CertifiedOracle& oracle_;
   const SurfaceCriteria& surface_;
   RunReport& report_;
-  RunBudget budget_;
+  RunBudget& budget_;
   RestrictedDelaunay delaunay_;
   TopologicalBalls balls_;
   double closest_;  ///< vertices do not come closer to each other
@@ -95,10 +94,10 @@ std::optional<Point3> TopologyDrivenRefinement::find_violation() {
   };
   const auto facet = [this](const Edge& g) { return balls_.vor_facet(g.p, g.q); };
   const auto cell = [this](VertexId p) { return balls_.silhouette(p); };
-  if (const auto x = first_in(voronoi_edges_, edge)) return x;   // (a)
-  if (const auto x = first_in(disks_, disk)) return x;           // (b)
+  if (const auto x = first_in(voronoi_edges_, edge)) return x;    // (a)
+  if (const auto x = first_in(disks_, disk)) return x;            // (b)
   if (const auto x = first_in(voronoi_facets_, facet)) return x;  // (c)
-  return first_in(voronoi_cells_, cell);                         // (d)
+  return first_in(voronoi_cells_, cell);                          // (d)
 }
 
 /// Section 14.4.
@@ -112,7 +111,7 @@ std::optional<Point3> TopologyDrivenRefinement::find_bad_triangle() {
 template <class Face, class Diagnose>
 std::optional<Point3> TopologyDrivenRefinement::first_in(std::deque<Face>& faces, const Diagnose& diagnose) {
   while (!faces.empty()) {
-    if (!budget_.go_on(delaunay_.vertex_count(), faces.size())) return std::nullopt;
+    if (!budget_.go_on_now(delaunay_.vertex_count(), faces.size())) return std::nullopt;
     if (const auto x = diagnose(faces.front())) return x;
     faces.pop_front();
   }
@@ -188,8 +187,7 @@ void TopologyDrivenRefinement::report_unmet() {
     report_.unmet.push_back({"topology", stuck_, stuck_place_, "a new point coincides with a vertex", true});
   }
   if (too_deviant_ > 0) {
-    report_.unmet.push_back(
-        {"deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false});
+    report_.unmet.push_back({"deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false});
   }
 }
 
@@ -199,10 +197,11 @@ void TopologyDrivenRefinement::report_unmet() {
 SurfaceMesh delsurf2(const SmoothFunction& h, const Box3& box, const DelSurf2Options& options, RunReport& report) {
   check_criteria(options.surface);
   report = RunReport{};
-  SurfaceCover cover(h, box);
+  RunBudget budget(options.control, report);
+  budget.begin_stage("cover");
+  SurfaceCover cover(h, box, [&budget] { return budget.go_on(0, 0); });
   const CertifiedOracle oracle(cover);
-  TopologyDrivenRefinement refinement(cover, oracle, options, report);
-  RunBudget& budget = refinement.budget();
+  TopologyDrivenRefinement refinement(cover, oracle, options.surface, budget, report);
 
   budget.begin_stage("seeds");
   refinement.insert_seeds();  // step 1
@@ -231,7 +230,12 @@ SurfaceMesh delsurf2(const SmoothFunction& h, const Box3& box, const DelSurf2Opt
 }
 
 SurfaceMesh delsurf2(const SmoothDomain& domain, const DelSurf2Options& options, RunReport& report) {
-  SurfaceMesh mesh = delsurf2(*domain.function, domain.box, options, report);
+  DelSurf2Options local = options;
+  if (const SizeField& size = options.surface.size; !size.constant()) {
+    local.surface.size = SizeField([&](const Point3& p) { return size(domain.to_world(p)); }, size.minimum(),
+                                   size.maximum());
+  }
+  SurfaceMesh mesh = delsurf2(*domain.function, domain.box, local, report);
   for (Point3& p : mesh.points) p = domain.to_world(p);
   for (Unmet& unmet : report.unmet) unmet.where = domain.to_world(unmet.where);
   if (domain.to_world.determinant() < 0) {

@@ -34,7 +34,8 @@ Vector3 normalized(const Vector3& v) {
 TopologicalBalls::TopologicalBalls(RestrictedDelaunay& delaunay, SurfaceCover& cover, const CertifiedOracle& oracle)
     : delaunay_(delaunay), cover_(cover), oracle_(oracle), margin_(1e-9 * cover.box().diagonal()) {}
 
-/// VorEdge(e): an edge that meets the surface more than once, or touches it, gives its crossing farthest from its sites.
+/// VorEdge(e): an edge that meets the surface more than once, or touches it, gives its crossing farthest from its
+/// sites.
 std::optional<Point3> TopologicalBalls::vor_edge(FacetId sigma) {
   const CellId neighbor = delaunay_.neighbors(sigma.cell)[sigma.index];
   const Point3& p = delaunay_.point(delaunay_.vertices(sigma)[0]);
@@ -126,7 +127,7 @@ std::optional<Point3> TopologicalBalls::silhouette(VertexId p) {
   std::optional<Point3> undecided;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     constexpr double kTiny = 0.02;
-    const Vector3 d = normalized(normal + kTiny * random_direction(p, p, 2 * attempt));                   // step 1
+    const Vector3 d = normalized(normal + kTiny * random_direction(p, p, 2 * attempt));     // step 1
     const Vector3 d_prime = normalized(cross(d, random_direction(p, p, 2 * attempt + 1)));  // step 2
     undecided.reset();
     if (const auto x = silhouette_point(p, cell, d, d_prime, undecided)) return x;

@@ -339,7 +339,8 @@ SmoothDomain make_spline_domain(const Volume& volume, const Isosurface& surface)
   const auto& dims = volume.dims();
   if (std::max({dims[0], dims[1], dims[2]}) > kMostSplineSamples) {
     throw OptionError("DelSurf2: " + std::to_string(dims[0]) + " x " + std::to_string(dims[1]) + " x " +
-                      std::to_string(dims[2]) + " voxels are too many for its searches, 32 x 32 x 32 is the most; "
+                      std::to_string(dims[2]) +
+                      " voxels are too many for its searches, 32 x 32 x 32 is the most; "
                       "--crop or --resample the volume, or take delsurf");
   }
   const Affine3 to_world = image_to_world(volume.header());

@@ -39,10 +39,10 @@ bool clip_line(const Point3& a, const Vector3& ab, const IntervalBox& box, Inter
 
 }  // namespace
 
-SurfaceCover::SurfaceCover(const SmoothFunction& function, const Box3& box)
+SurfaceCover::SurfaceCover(const SmoothFunction& function, const Box3& box, const GoOn& go_on)
     : function_(function), box_(box), smallest_(kSmallestShare * box.diagonal()) {
   certify_border(function, box);
-  build();
+  build(go_on);
 }
 
 SurfaceCover::Node SurfaceCover::make_node(const IntervalBox& box) const {
@@ -77,7 +77,7 @@ bool SurfaceCover::regular(const Node& node) const {
   return product.low > 0;
 }
 
-void SurfaceCover::build() {
+void SurfaceCover::build(const GoOn& go_on) {
   const IntervalBox whole{Interval(box_.min.x, box_.max.x), Interval(box_.min.y, box_.max.y),
                           Interval(box_.min.z, box_.max.z)};
   nodes_.push_back(make_node(whole));
@@ -96,9 +96,11 @@ void SurfaceCover::build() {
                         (node.smooth ? " it may have a point without a normal, or parts too close to tell apart"
                                      : " it may meet a kink, jump or pole, as of min, max, abs, sqrt or division"));
     }
+    go_on();
     divide(number);
     for (std::uint32_t i = 0; i < nodes_[number].children; ++i) waiting.push_back(nodes_[number].first_child + i);
-    if (nodes_.size() > kMostNodes) throw OptionError("DelSurf2: the surface is too intricate to be covered with boxes");
+    if (nodes_.size() > kMostNodes)
+      throw OptionError("DelSurf2: the surface is too intricate to be covered with boxes");
   }
 }
 

@@ -4,6 +4,7 @@
 #include <deque>
 #include <vector>
 
+#include "delvox/oracle/oracle.h"
 #include "delvox/oracle/smooth_function.h"
 #include "oracle/convex_region.h"
 
@@ -28,7 +29,8 @@ class SurfaceCover {
 
   /// The function must outlive this. Throws OptionError, with the place, if the surface may reach the border of the
   /// box, or if it may have a kink or a point without a normal somewhere, down to 1e-6 of the box's diagonal.
-  SurfaceCover(const SmoothFunction& function, const Box3& box);
+  /// `go_on` is asked now and then; its answer is not heeded, but it may throw.
+  SurfaceCover(const SmoothFunction& function, const Box3& box, const GoOn& go_on = always_go_on);
 
   const SmoothFunction& function() const { return function_; }
   const Box3& box() const { return box_; }
@@ -54,7 +56,7 @@ class SurfaceCover {
 
   Node make_node(const IntervalBox& box) const;
   bool regular(const Node& node) const;
-  void build();
+  void build(const GoOn& go_on);
   void divide(std::uint32_t number);
   void collect(std::uint32_t number, const ConvexRegion& region, CriticalSearch& search);
 

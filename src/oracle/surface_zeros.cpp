@@ -24,7 +24,8 @@ IntervalVector3 gradient_of(const Results& r) {
 /// H w.
 IntervalVector3 hessian_times(const Results& r, const Vector3& w) {
   IntervalVector3 product;
-  for (std::size_t i = 0; i < 3; ++i) product[i] = project(w, {r[kHessian[i][0]], r[kHessian[i][1]], r[kHessian[i][2]]});
+  for (std::size_t i = 0; i < 3; ++i)
+    product[i] = project(w, {r[kHessian[i][0]], r[kHessian[i][1]], r[kHessian[i][2]]});
   return product;
 }
 IntervalVector3 cross(const IntervalVector3& a, const IntervalVector3& b) {
@@ -34,7 +35,8 @@ IntervalVector3 cross(const IntervalVector3& a, const IntervalVector3& b) {
 /// h along the line a + t ab.
 class LineSystem final : public ZeroSystem<1> {
  public:
-  LineSystem(const SmoothFunction& function, const Point3& a, const Vector3& ab) : function_(function), a_(a), ab_(ab) {}
+  LineSystem(const SmoothFunction& function, const Point3& a, const Vector3& ab)
+      : function_(function), a_(a), ab_(ab) {}
 
   bool enclose(const IntervalVector<1>& t, IntervalVector<1>& f, IntervalMatrix<1>& jacobian) const override {
     IntervalBox box;

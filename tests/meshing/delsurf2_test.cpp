@@ -50,8 +50,7 @@ const KnownSurface kSurfaces[] = {
     {"NearlyTouchingBalls", "((x-1)^2+y^2+z^2-0.98)*((x+1)^2+y^2+z^2-0.98)", 2, 4},
     {"BarelyJoinedBalls", "((x-1)^2+y^2+z^2-0.98)*((x+1)^2+y^2+z^2-0.98)-0.005", 1, 2},
     {"NestedShells", "(x^2+y^2+z^2-0.5)*(x^2+y^2+z^2-1)*(x^2+y^2+z^2-2)", 3, 6},
-    {"LinkedRings",
-     "((x^2+y^2+z^2+0.96)^2-4*(x^2+y^2))*(((x-1)^2+y^2+z^2+0.96)^2-4*((x-1)^2+z^2))", 2, 0}};
+    {"LinkedRings", "((x^2+y^2+z^2+0.96)^2-4*(x^2+y^2))*(((x-1)^2+y^2+z^2+0.96)^2-4*((x-1)^2+z^2))", 2, 0}};
 
 class DelSurf2On : public testing::TestWithParam<KnownSurface> {};
 INSTANTIATE_TEST_SUITE_P(Formulas, DelSurf2On, testing::ValuesIn(kSurfaces),
@@ -100,8 +99,7 @@ TEST(DelSurf2, MeetsASizeAndADeviationIfAsked) {
   const SurfaceMesh close = mesh_of(kSphere, options, report);
   test::expect_finished(report);
   for (const Triangle& t : close.triangles) {
-    const Point3 middle =
-        test::circumcenter(close.points[t[0]], close.points[t[1]], close.points[t[2]]);
+    const Point3 middle = test::circumcenter(close.points[t[0]], close.points[t[1]], close.points[t[2]]);
     EXPECT_NEAR(norm(middle), 1, 0.01 + 1e-9);
   }
 }
@@ -116,6 +114,54 @@ TEST(DelSurf2, MeshesCode) {
   test::expect_finished(report);
   test::expect_closed_manifold(mesh);
   EXPECT_EQ(test::topology_of(mesh).euler, 0);
+}
+
+/// A function whose second and third derivatives are hardly known.
+class Loose final : public SmoothFunction {
+ public:
+  explicit Loose(const char* formula) : function_(make_smooth_function(Formula(formula))) {}
+  void evaluate(const Point3& p, int order, double* results) const override { function_->evaluate(p, order, results); }
+  bool enclose(const IntervalBox& box, int order, Interval* results) const override {
+    const bool smooth = function_->enclose(box, order, results);
+    for (std::size_t i = kResults[1]; i < kResults[order]; ++i) results[i] = {-1e4, 1e4};
+    return smooth;
+  }
+
+ private:
+  std::unique_ptr<SmoothFunction> function_;
+};
+
+// Without them no search can tell zeros apart: the sample gets denser until none is needed, or the report says where.
+TEST(DelSurf2, WhatCannotBeDecidedIsToldOrRefined) {
+  DelSurf2Options options = topology_only();
+  options.control.limits.max_vertices = 3000;
+  RunReport report;
+  const SurfaceMesh mesh = delsurf2(Loose(kTorus), kBox, options, report);
+  if (report.succeeded()) {
+    test::expect_closed_manifold(mesh);
+    EXPECT_EQ(test::topology_of(mesh).euler, 0);
+  } else {
+    EXPECT_FALSE(mesh.info.complete);
+    EXPECT_TRUE(report.stop != StopReason::kFinished || !report.unmet.empty());
+  }
+}
+
+TEST(DelSurf2, SizesOfAVolumeAreTakenInTheWorld) {
+  // Turned by a quarter and mirrored: the domain's own +x is the world's +y.
+  SmoothDomain domain{make_smooth_function(Formula(kSphere)), kBox, {}};
+  domain.to_world.rows = {{{0, -1, 0, 5}, {1, 0, 0, 0}, {0, 0, -1, 0}}};
+  DelSurf2Options options;
+  options.surface.size = SizeField([](const Point3& p) { return p.y > 0.3 ? 0.1 : 0.5; }, 0.1, 0.5);
+  RunReport report;
+  const SurfaceMesh mesh = delsurf2(domain, options, report);
+  test::expect_finished(report);
+  test::expect_all_checks_hold(mesh);  // facing outward, too
+  std::size_t above = 0;
+  for (const Point3& p : mesh.points) {
+    EXPECT_NEAR(distance(p, {5, 0, 0}), 1, 1e-9);
+    above += p.y > 0;
+  }
+  EXPECT_GT(above, 2 * mesh.points.size() / 3);
 }
 
 TEST(DelSurf2, RunsGiveTheSameMesh) {

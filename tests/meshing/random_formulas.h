@@ -53,7 +53,8 @@ class FormulaWriter {
 
   /// A linear form; `unit`: of a random direction.
   std::string linear(const Vector3& a, const Point3& from) const {
-    const std::string x = "(x-" + number(from.x) + ")", y = "(y-" + number(from.y) + ")", z = "(z-" + number(from.z) + ")";
+    const std::string x = "(x-" + number(from.x) + ")", y = "(y-" + number(from.y) + ")",
+                      z = "(z-" + number(from.z) + ")";
     return "(" + number(a.x) + "*" + x + "+" + number(a.y) + "*" + y + "+" + number(a.z) + "*" + z + ")";
   }
   std::string squared_distance(const Point3& from) const {
@@ -77,7 +78,8 @@ class FormulaWriter {
   std::string waves() {
     std::string sum = "(x^2+y^2+z^2)^2/" + between(5, 9) + "-" + between(0.2, 1);
     for (int i = 0; i < 3; ++i) {
-      const Vector3 k = random_.between(2, 4.5) * random_.direction(), l = random_.between(2, 4.5) * random_.direction();
+      const Vector3 k = random_.between(2, 4.5) * random_.direction(),
+                    l = random_.between(2, 4.5) * random_.direction();
       sum += "+" + between(0.6, 1.2) + "*sin(" + linear(k, {}) + ")*cos(" + linear(l, center(1)) + ")";
     }
     return sum;
@@ -96,8 +98,8 @@ class FormulaWriter {
     for (int i = 0; i < count; ++i) {
       const double radius = random_.between(0.5, 0.9);
       const double thickness = random_.between(0.1, 0.25);
-      const std::string tube =
-          "(" + ring(center(0.6), random_.direction(), radius) + "-" + number(4 * radius * radius * thickness * thickness) + ")";
+      const std::string tube = "(" + ring(center(0.6), random_.direction(), radius) + "-" +
+                               number(4 * radius * radius * thickness * thickness) + ")";
       product += (i > 0 ? "*" : "") + tube;
     }
     return product + (random_.below(2) == 0 ? "-" : "+") + between(0.002, 0.03);

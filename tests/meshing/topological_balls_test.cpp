@@ -21,7 +21,10 @@ const char* const kTwoSheets = "(x^2+y^2+z^2-1)*(x^2+y^2+z^2-1.44)";
 class Sites {
  public:
   Sites(const char* formula, const std::vector<Point3>& points)
-      : function_(make_smooth_function(Formula(formula))), cover_(*function_, kBox), oracle_(cover_), delaunay_(oracle_) {
+      : function_(make_smooth_function(Formula(formula))),
+        cover_(*function_, kBox),
+        oracle_(cover_),
+        delaunay_(oracle_) {
     delaunay_.insert_seeds(points);
     for (VertexId v = 0; v < delaunay_.vertex_capacity(); ++v) {
       if (delaunay_.kind(v) == VertexKind::kSurface) vertices_.push_back(v);
@@ -47,9 +50,8 @@ class Sites {
       if (delaunay_.stamp(cell) == 0) continue;
       for (int i = 0; i < 4; ++i) {
         const auto v = delaunay_.vertices(FacetId{cell, i});
-        const bool real = std::none_of(v.begin(), v.end(), [&](VertexId p) {
-          return delaunay_.kind(p) == VertexKind::kCorner;
-        });
+        const bool real =
+            std::none_of(v.begin(), v.end(), [&](VertexId p) { return delaunay_.kind(p) == VertexKind::kCorner; });
         if (!real) continue;
         if (const auto x = balls.vor_edge({cell, i})) found.push_back(*x);
       }
@@ -94,7 +96,8 @@ std::vector<Point3> spread(int count, double radius) {
   std::vector<Point3> points;
   test::Random random(7);
   for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count, angle = i * std::numbers::pi * (3 - std::sqrt(5)) + random.between(0, 0.05);
+    const double z = 1 - (2 * i + 1.0) / count,
+                 angle = i * std::numbers::pi * (3 - std::sqrt(5)) + random.between(0, 0.05);
     const double r = std::sqrt(1 - z * z);
     points.push_back({radius * r * std::cos(angle), radius * r * std::sin(angle), radius * z});
   }

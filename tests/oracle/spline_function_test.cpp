@@ -89,8 +89,9 @@ TEST(SplineFunction, LiesInTheWorldAsTheImageDoes) {
   const SmoothDomain domain = make_spline_domain(volume, {phantom_truth("oblique-sphere", small).isovalue, false});
   const Vector3 spacing = volume.header().spacing();
   const Point3 at{3, 4, 5};
-  EXPECT_LT(distance(domain.to_world({3 * spacing.x, 4 * spacing.y, 5 * spacing.z}), volume.header().index_to_world(at)),
-            1e-9);
+  EXPECT_LT(
+      distance(domain.to_world({3 * spacing.x, 4 * spacing.y, 5 * spacing.z}), volume.header().index_to_world(at)),
+      1e-9);
   EXPECT_NEAR(std::abs(domain.to_world.determinant()), 1, 1e-6);
 }
 

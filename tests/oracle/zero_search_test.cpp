@@ -52,8 +52,8 @@ bool holds(const IntervalVector<N>& box, const std::array<double, N>& point) {
 
 template <std::size_t N>
 std::size_t count_holding(const Zeros<N>& zeros, const std::array<double, N>& point) {
-  return static_cast<std::size_t>(std::count_if(zeros.simple.begin(), zeros.simple.end(),
-                                                [&](const auto& box) { return holds<N>(box, point); }));
+  return static_cast<std::size_t>(
+      std::count_if(zeros.simple.begin(), zeros.simple.end(), [&](const auto& box) { return holds<N>(box, point); }));
 }
 
 TEST(ZeroSearch, FindsEachZeroOnceInABoxThatHoldsIt) {
@@ -136,8 +136,7 @@ TEST(ZeroSearch, WhatALimitCutsOffIsUndecided) {
 }
 
 TEST(ZeroSearch, EndsWithAsManyAsAreEnough) {
-  const auto zeros =
-      find_zeros<3>(kGrid, {{Interval(-4, 4), Interval(-4, 4), Interval(-4, 4)}}, {1e-9, 100'000, 1});
+  const auto zeros = find_zeros<3>(kGrid, {{Interval(-4, 4), Interval(-4, 4), Interval(-4, 4)}}, {1e-9, 100'000, 1});
   EXPECT_EQ(zeros.simple.size(), 1u);
 }
 

@@ -152,9 +152,9 @@ TEST(CliFormula, DelSurf2RefusesWhatIsNotSmooth) {
 
 TEST(CliDelSurf2, MeshesASmallVolumeThroughASpline) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_on(folder, {"phantom", "torus", "-o", "torus.nii", "--dims", "16,16,16"}).code, 0);
-  const Outcome outcome = run_on(folder, {"surface", "torus.nii", "--iso", "0", "--algorithm", "delsurf2", "-o",
-                                          "torus.ply"});
+  ASSERT_EQ(run_on(folder, {"phantom", "torus", "-o", "torus.nii", "--dims", "14,14,14"}).code, 0);
+  const Outcome outcome = run_on(folder, {"surface", "torus.nii", "--iso", "0", "--algorithm", "delsurf2",
+                                          "--min-angle", "0", "-o", "torus.ply"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("genus 1"), std::string::npos) << outcome.out;
   const Outcome one = run_on(folder, {"surface", "torus.nii", "--algorithm", "delsurf2", "--largest", "-o", "a.ply"});
@@ -165,9 +165,6 @@ TEST(CliDelSurf2, MeshesASmallVolumeThroughASpline) {
                                         "--quiet"});
   EXPECT_EQ(large.code, 2) << large.err;
   EXPECT_NE(large.err.find("32 x 32 x 32"), std::string::npos) << large.err;
-  const Outcome crop = run_on(folder, {"surface", "large.nii", "--iso", "0", "--crop", "4:28,0:19,0:19", "--algorithm",
-                                       "delsurf2", "--min-angle", "0", "-o", "c.ply", "--quiet"});
-  EXPECT_EQ(crop.code, 0) << crop.err;
 }
 
 TEST(CliFormula, NothingInsideTheBoxIsNothingToMesh) {

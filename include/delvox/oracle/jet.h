@@ -11,9 +11,9 @@
 
 namespace delvox {
 
-/// Enclosures of a function and of its derivatives up to `kOrder` (1 to 3), as SmoothFunction orders them. Arithmetic on
-/// jets derives what is computed with them: Leibniz' rule for products, that of Faa di Bruno for functions of functions
-/// (forward automatic differentiation: Griewank, Walther, Evaluating Derivatives, 2008).
+/// Enclosures of a function and of its derivatives up to `kOrder` (1 to 3), as SmoothFunction orders them. Arithmetic
+/// on jets derives what is computed with them: Leibniz' rule for products, that of Faa di Bruno for functions of
+/// functions (forward automatic differentiation: Griewank, Walther, Evaluating Derivatives, 2008).
 template <int kOrder>
 class Jet {
  public:
@@ -178,8 +178,8 @@ class CallableFunction final : public SmoothFunction {
   template <int kOrder>
   bool enclose(const IntervalBox& box, Interval* results) const {
     using Number = Jet<kOrder>;
-    const Number jet = callable_(Number::coordinate(box[0], 0), Number::coordinate(box[1], 1),
-                                 Number::coordinate(box[2], 2));
+    const Number jet =
+        callable_(Number::coordinate(box[0], 0), Number::coordinate(box[1], 1), Number::coordinate(box[2], 2));
     std::copy(jet.results().begin(), jet.results().end(), results);
     return std::all_of(results, results + Number::kSize, [](const Interval& result) { return result.bounded(); });
   }
