@@ -47,12 +47,16 @@ class FormulaDomain final : public MeshingDomain {
         ->for_each_patch([&](const DomainPatch& patch) { inside_mm3 += patch.inside_mm3; });
     return tools::guess_size(tets, inside_mm3);
   }
-  double min_ball_radius(const SizeField& size) const override { return kMinBallRadiusSizes * size.minimum(); }
+  double min_ball_radius(const SizeField& size) const override {
+    return kMinBallRadiusSizes * std::min(size.minimum(), default_size());
+  }
   double thin_ball_radius(const SizeField&) const override { return 0; }
 
   std::unique_ptr<Oracle> make_oracle(const SizeField& size, Stopwatch& watch) override {
     return watch.timed("oracle", [&] { return make_formula_oracle(formula_, box_, resolution_for(size.minimum())); });
   }
+
+  std::optional<SmoothDomain> smooth() const override { return SmoothDomain{make_smooth_function(formula_), box_, {}}; }
 
   void finish(Mesh&) const override {}
   std::string how_to_shrink() const override { return "take a tighter --box"; }

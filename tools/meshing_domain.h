@@ -8,6 +8,7 @@
 #include "delvox/core/mesh.h"
 #include "delvox/core/size_field.h"
 #include "delvox/oracle/oracle.h"
+#include "delvox/oracle/spline_function.h"
 #include "meshing_options.h"
 #include "patient_frame.h"
 #include "report_json.h"
@@ -45,6 +46,8 @@ class MeshingDomain {
 
   /// The oracle for a run at `size`. Throws NothingToMesh if nothing is left at that size.
   virtual std::unique_ptr<Oracle> make_oracle(const SizeField& size, Stopwatch& watch) = 0;
+  /// For DelSurf2, if the domain can be had as that.
+  virtual std::optional<SmoothDomain> smooth() const { return std::nullopt; }
   /// Whether a larger size may have nothing to mesh where a smaller one has.
   virtual bool may_vanish() const { return false; }
 

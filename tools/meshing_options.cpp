@@ -31,6 +31,26 @@ void add_size_options(CLI::App& app, MeshingOptions& options) {
       ->type_name("G");
 }
 
+void add_algorithm_option(CLI::App& app, MeshingOptions& options) {
+  app.add_option("--algorithm", options.algorithm,
+                 "delsurf: as fine as --size; delsurf2: as fine as the topology asks, and no finer unless --size says "
+                 "so, of smooth formulas and of volumes of up to 32 x 32 x 32 voxels, interpolated by a spline")
+      ->check(CLI::IsMember({"delsurf", "delsurf2"}))
+      ->capture_default_str()
+      ->type_name("NAME");
+}
+
+/// DelSurf2 takes all components of a surface without a border, and nothing foretells what that takes.
+void check_algorithm(const CLI::App& app, const MeshingOptions& options) {
+  if (options.algorithm != "delsurf2") return;
+  for (const char* name : {"--largest", "--min-component", "--fill-cavities", "--border"}) {
+    if (app.count(name) > 0) throw OptionError(std::string(name) + ": not with --algorithm delsurf2");
+  }
+  if (!options.max_memory.empty()) {
+    throw OptionError("--max-memory: what delsurf2 takes cannot be forecast; --max-vertices limits it");
+  }
+}
+
 void add_shape_options(CLI::App& app, MeshingOptions& options) {
   app.add_option("--min-angle", options.min_angle_degrees, "Lower bound on the angles of surface triangles, 0 to 30")
       ->check(CLI::Range(0.0, 30.0))
@@ -141,6 +161,7 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   } else {
     add_unit_option(app, options.output.unit);
   }
+  if (options.kind == MeshKind::kSurface && options.input == InputKind::kVolume) add_algorithm_option(app, options);
   add_size_options(app, options);
   add_shape_options(app, options);
   if (options.input != InputKind::kPolygons) add_volume_options(app, options);
@@ -153,6 +174,7 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
 }
 
 void decide_input(const CLI::App& app, MeshingOptions& options) {
+  check_algorithm(app, options);
   const bool polygons = is_mesh_path(options.volume.path);
   if (options.input == InputKind::kVolume && polygons) {
     throw OptionError(options.volume.path + ": is a polygon surface, no volume; delvox remesh is for those");

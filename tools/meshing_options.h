@@ -26,6 +26,7 @@ struct MeshingOptions {
   IsosurfaceOptions isosurface;
   std::string implicit;                  ///< a formula in place of a volume; empty: none
   std::string box;                       ///< "x0:x1,y0:y1,z0:z1", where the formula is looked at
+  std::string algorithm = "delsurf";     ///< of surfaces: delsurf or delsurf2
   std::string size;                      ///< a number or a volume file; empty: the domain's default
   std::string cell_size;                 ///< a number or a volume file; empty: as size
   double grade = 0;                      ///< growth of the cell size per mm of depth

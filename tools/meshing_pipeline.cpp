@@ -9,6 +9,7 @@
 #include "delvox/check/check_mesh.h"
 #include "delvox/core/errors.h"
 #include "delvox/meshing/delsurf.h"
+#include "delvox/meshing/delsurf2.h"
 #include "delvox/meshing/deltetsurf.h"
 #include "delvox/meshing/graded_size.h"
 #include "delvox/meshing/remove_slivers.h"
@@ -79,6 +80,8 @@ class MeshingRun {
   void map_materials();
   void name_sets();
   void mesh_at(const SizeField& size);
+  void mesh_by_topology();
+  void tell_effort() const;
   ProcessForecast forecast_at(const Oracle& oracle, double factor) const;
   void look_ahead(const Oracle& oracle);
   [[noreturn]] void refuse(const Oracle& oracle, const ProcessForecast& forecast) const;
@@ -125,6 +128,9 @@ void MeshingRun::decide() {
   if (!options_.size.empty()) {
     size_ = parse_size(options_.size, "--size", frame);
     size_sentence_ = "size " + options_.size + (size_.constant() ? " mm" : "");
+  } else if (options_.algorithm == "delsurf2") {
+    size_ = std::numeric_limits<double>::infinity();
+    size_sentence_ = "no size: as fine as the topology asks";
   } else if (options_.tets == 0) {
     size_ = domain_->default_size();
     size_sentence_ = "size " + number(size_.maximum()) + " mm, " + domain_->origin_of_default_size();
@@ -246,6 +252,20 @@ void MeshingRun::mesh_at(const SizeField& size) {
   if (auto* tets = std::get_if<TetMesh>(&mesh_)) remove_slivers_of(*tets, *oracle);
   progress_.clear();
   if (options_.output.order == 2) watch_.timed("second order", [&] { curve(*oracle); });
+  tell_effort();
+}
+
+// DelSurf2, which needs no oracle, nor a size.
+void MeshingRun::mesh_by_topology() {
+  const std::optional<SmoothDomain> domain = domain_->smooth();
+  mesh_ = watch_.timed("meshing", [&] {
+    return delsurf2(*domain, {surface_criteria(size_), control()}, run_report_);
+  });
+  progress_.clear();
+  tell_effort();
+}
+
+void MeshingRun::tell_effort() const {
   for (const StageTime& stage : run_report_.stages) {
     console_.detail("stage " + stage.stage + ": " + number(stage.seconds, 3) + " s");
   }
@@ -365,7 +385,9 @@ void MeshingRun::search_size() {
 }
 
 void MeshingRun::mesh() {
-  if (options_.tets == 0) {
+  if (options_.algorithm == "delsurf2") {
+    mesh_by_topology();
+  } else if (options_.tets == 0) {
     mesh_at(size_);
   } else {
     search_size();

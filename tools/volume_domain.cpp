@@ -65,9 +65,11 @@ class VolumeDomain final : public MeshingDomain {
     return watch.timed("oracle", [&] { return make_isosurface_oracle(filtered.volume, chosen_.surface); });
   }
   bool may_vanish() const override { return !options_.isosurface.min_component; }
+  std::optional<SmoothDomain> smooth() const override { return make_spline_domain(*volume_, chosen_.surface); }
 
   void finish(Mesh& mesh) const override {
     if (options_.border == "open") mesh = open_at_border(std::get<SurfaceMesh>(mesh), volume_->header());
+    if (options_.algorithm == "delsurf2") return;  // its nodes lie on the spline, not on the trilinear isosurface
     std::visit(
         [this](auto& m) {
           m.info.isovalue = chosen_.surface.isovalue;

@@ -30,7 +30,7 @@ void check_criteria(const TetCriteria& criteria) {
 Promises promises_of(const SurfaceCriteria& criteria) {
   Promises promises;
   promises.min_angle_degrees = criteria.min_angle_degrees;
-  promises.size = criteria.size.maximum();
+  if (std::isfinite(criteria.size.maximum())) promises.size = criteria.size.maximum();
   if (std::isfinite(criteria.max_deviation)) promises.max_deviation = criteria.max_deviation;
   return promises;
 }

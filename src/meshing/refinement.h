@@ -15,6 +15,7 @@
 #include "meshing/refinement_lane.h"
 #include "meshing/repair_effort.h"
 #include "meshing/run_budget.h"
+#include "meshing/surface_verdict.h"
 
 namespace delvox {
 
@@ -66,7 +67,7 @@ class Refinement {
   };
   /// A matter of the mesh alone, never of the number of threads.
   static constexpr std::size_t kLanes = 8;
-  enum class Verdict { kGood, kSplit, kTooDeviant };
+  using Verdict = SurfaceVerdict;
 
   // Lanes (refinement_lanes.cpp)
   static bool enough_for_lanes(std::size_t waiting);

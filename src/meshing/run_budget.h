@@ -21,6 +21,11 @@ class RunBudget {
   /// To be called once per insertion. False once a limit is reached (told in the report) and ever after.
   /// Throws Cancelled.
   bool go_on(std::size_t vertices, std::size_t waiting);
+  /// The same where calls lie far apart: looks at the clock each time.
+  bool go_on_now(std::size_t vertices, std::size_t waiting) {
+    calls_ = 0;
+    return go_on(vertices, waiting);
+  }
   /// May the mesh get so many vertices?
   bool room_for(std::size_t vertices) const {
     return control_.limits.max_vertices == 0 || vertices <= control_.limits.max_vertices;

@@ -1,10 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "delvox/core/errors.h"
 #include "meshing/refinement.h"
-#include "meshing/triangle_shape.h"
 #include "meshing/umbrella.h"
 
 namespace delvox {
@@ -77,20 +75,9 @@ void Refinement::remove_interior_vertex_of(FacetId facet) {
   enqueue_created();
 }
 
-/// Size, Quality and deviation: is the facet's ball to be split?
 Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) const {
-  const double size = surface_.size(ball.center);
-  if (ball.squared_radius > size * size) return Verdict::kSplit;
   const auto v = delaunay_.vertices(facet);
-  const TriangleShape shape = triangle_shape(delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]));
-  // sin(smallest angle) = shortest edge / (2 circumradius); a hair stricter, so that what is written still holds.
-  const double sine = std::sin(surface_.min_angle_degrees * std::numbers::pi / 180);
-  if (shape.shortest_squared_edge < 4 * sine * sine * shape.squared_circumradius * (1 + 1e-9)) return Verdict::kSplit;
-  if (!std::isfinite(surface_.max_deviation)) return Verdict::kGood;
-  const double squared_deviation = ball.squared_radius - shape.squared_circumradius;
-  if (squared_deviation <= surface_.max_deviation * surface_.max_deviation) return Verdict::kGood;
-  const double smallest = surface_.min_ball_radius;
-  return ball.squared_radius <= smallest * smallest ? Verdict::kTooDeviant : Verdict::kSplit;
+  return delvox::judge(surface_, delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), ball);
 }
 
 bool Refinement::insert_surface_point(const Point3& p, CellId hint) {

@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "core/hash.h"
-#include "oracle/interval_functions.h"
+#include "delvox/oracle/interval_functions.h"
 
 namespace delvox {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "delvox/core/geometry.h"
-#include "oracle/interval.h"
+#include "delvox/oracle/interval.h"
 
 namespace delvox {
 

@@ -1,4 +1,4 @@
-#include "oracle/interval_functions.h"
+#include "delvox/oracle/interval_functions.h"
 
 #include <numbers>
 

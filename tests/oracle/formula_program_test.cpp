@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "oracle/formula_algebra.h"
-#include "oracle/interval_functions.h"
+#include "delvox/oracle/interval_functions.h"
 #include "support/random.h"
 
 namespace delvox {

@@ -100,6 +100,73 @@ TEST(CliFormula, WhatMakesNoSenseIsAUsageError) {
   }
 }
 
+TEST(CliFormula, DelSurf2TakesNoSize) {
+  const TemporaryFolder folder;
+  const Outcome outcome = run_on(folder, {"surface", "--implicit", "(sqrt(x^2+y^2)-1)^2+z^2-0.1", kBox, "--algorithm",
+                                          "delsurf2", "-o", "torus.ply", "--report", "torus.json"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("genus 1"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("no size: as fine as the topology asks"), std::string::npos) << outcome.out;
+  const json report = json::parse(read_file(folder / "torus.json"));
+  EXPECT_EQ(report["options"]["algorithm"], "delsurf2");
+  EXPECT_LT(report["check"]["statistics"]["points"], 200);
+  EXPECT_EQ(run_on(folder, {"check", "torus.ply"}).code, 0);
+
+  const Outcome fine = run_on(folder, {"surface", "--implicit", "x^2+y^2+z^2-1", kBox, "--algorithm", "delsurf2",
+                                       "--size", "0.1", "-o", "fine.vtk", "--report", "fine.json"});
+  EXPECT_EQ(fine.code, 0) << fine.err;
+  EXPECT_GT(json::parse(read_file(folder / "fine.json"))["check"]["statistics"]["points"], 400);
+}
+
+TEST(CliFormula, ARunOfDelSurf2ThatALimitStopsSaysSo) {
+  const TemporaryFolder folder;
+  const Outcome outcome =
+      run_on(folder, {"surface", "--implicit", "(sqrt(x^2+y^2)-1)^2+z^2-0.1", kBox, "--algorithm", "delsurf2",
+                      "--max-vertices", "20", "-o", "torus.ply", "--quiet"});
+  EXPECT_EQ(outcome.code, 5) << outcome.err;
+  EXPECT_EQ(line_count(outcome.err), 1u) << outcome.err;
+  EXPECT_NE(outcome.err.find("max-vertices"), std::string::npos) << outcome.err;
+}
+
+TEST(CliFormula, DelSurf2RefusesWhatIsNotSmooth) {
+  const TemporaryFolder folder;
+  const auto refuse = [&](const std::vector<std::string>& arguments, const std::string& words) {
+    std::vector<std::string> all = {"surface", "--algorithm", "delsurf2", "-o", "out.ply", "--quiet"};
+    all.insert(all.end(), arguments.begin(), arguments.end());
+    const Outcome outcome = run_on(folder, all);
+    EXPECT_EQ(outcome.code, 2) << outcome.err;
+    EXPECT_EQ(line_count(outcome.err), 1u) << outcome.err;
+    EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+    EXPECT_TRUE(folder.names().empty());
+  };
+  refuse({"--implicit", "max(abs(x),abs(y),abs(z))-1", kBox}, "near 1, 1, 1 it may meet a kink");
+  refuse({"--implicit", "sqrt(x^2+y^2)+z^2-1", kBox}, "kink");
+  refuse({"--implicit", "(x^2+y^2+z^2-1)^2", kBox}, "without a normal");
+  refuse({"--implicit", "x^2+y^2+z^2-9", kBox}, "border of the box");
+  refuse({"--implicit", "x^2+y^2+z^2-1", kBox, "--border", "close"}, "--border");
+  refuse({"--implicit", "x^2+y^2+z^2-1", kBox, "--max-memory", "1G"}, "--max-memory");
+  EXPECT_NE(run_on(folder, {"surface", "--help"}).out.find("delsurf2"), std::string::npos);
+  EXPECT_EQ(run_on(folder, {"surface", "--implicit", "x^2+y^2+z^2-1", kBox, "--algorithm", "fast", "-o", "s.ply"}).code,
+            2);
+}
+
+TEST(CliDelSurf2, MeshesASmallVolumeThroughASpline) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run_on(folder, {"phantom", "torus", "-o", "torus.nii", "--dims", "14,14,14"}).code, 0);
+  const Outcome outcome = run_on(folder, {"surface", "torus.nii", "--iso", "0", "--algorithm", "delsurf2",
+                                          "--min-angle", "0", "-o", "torus.ply"});
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("genus 1"), std::string::npos) << outcome.out;
+  const Outcome one = run_on(folder, {"surface", "torus.nii", "--algorithm", "delsurf2", "--largest", "-o", "a.ply"});
+  EXPECT_EQ(one.code, 2) << one.err;
+
+  ASSERT_EQ(run_on(folder, {"phantom", "sphere", "-o", "large.nii", "--dims", "33,20,20"}).code, 0);
+  const Outcome large = run_on(folder, {"surface", "large.nii", "--iso", "0", "--algorithm", "delsurf2", "-o", "b.ply",
+                                        "--quiet"});
+  EXPECT_EQ(large.code, 2) << large.err;
+  EXPECT_NE(large.err.find("32 x 32 x 32"), std::string::npos) << large.err;
+}
+
 TEST(CliFormula, NothingInsideTheBoxIsNothingToMesh) {
   const TemporaryFolder folder;
   const Outcome outcome = run_on(folder, {"tet", "--implicit", "x^2+y^2+z^2+1", kBox, "-o", "out.vtu", "--quiet"});

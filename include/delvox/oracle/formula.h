@@ -5,6 +5,7 @@
 
 #include "delvox/core/geometry.h"
 #include "delvox/oracle/oracle.h"
+#include "delvox/oracle/smooth_function.h"
 
 namespace delvox {
 
@@ -32,5 +33,8 @@ class Formula {
 /// domain reaches the box: its surface would end there. Throws NothingToMesh if the formula is at most 0 nowhere that a
 /// grid of that resolution looks.
 std::unique_ptr<SmoothOracle> make_formula_oracle(const Formula& formula, const Box3& box, double resolution);
+
+/// The formula with its derivatives up to the third, and their enclosures. Throws OptionError if they grow too long.
+std::unique_ptr<SmoothFunction> make_smooth_function(const Formula& formula);
 
 }  // namespace delvox

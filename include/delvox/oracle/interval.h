@@ -89,6 +89,7 @@ inline bool disjoint(const Interval& a, const Interval& b) {
   return a.high < b.low || b.high < a.low;
 }
 
+/// All points whose coordinates are in three intervals.
 using IntervalBox = std::array<Interval, 3>;
 
 }  // namespace delvox
