@@ -72,8 +72,8 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
       ->check(finite_number(Zero::kExcluded))
       ->type_name("MM");
   app.add_option("--min-ball-radius", options.min_ball_radius,
-                 "Topology and deviation leave surface balls this small alone, mm (default: 0.0001 voxel; for formulas "
-                 "and polygon surfaces 0.001 size)")
+                 "Topology, folds and deviation leave surface balls this small alone, mm (default: 0.0001 voxel; for "
+                 "formulas and polygon surfaces 0.001 size)")
       ->check(finite_number(Zero::kAllowed))
       ->type_name("MM");
 }

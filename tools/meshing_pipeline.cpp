@@ -90,6 +90,7 @@ class MeshingRun {
   TetCriteria tet_criteria(double factor) const;
   RunControl control();
   Mesh run_mesher(const Oracle& oracle);
+  double min_dihedral_degrees() const;
   void remove_slivers_of(TetMesh& mesh, const Oracle& oracle);
   void list_unmet_tets() const;
   double meshing_seconds() const;
@@ -214,18 +215,24 @@ RunControl MeshingRun::control() {
   return control;
 }
 
+// Of tets, whether asked for or by default; 0: slivers stay.
+double MeshingRun::min_dihedral_degrees() const {
+  return options_.min_dihedral_degrees.value_or(kDefaultMinDihedralDegrees);
+}
+
 // One run of the book's algorithm.
 Mesh MeshingRun::run_mesher(const Oracle& oracle) {
   const SurfaceCriteria surface = surface_criteria(size_);
   return watch_.timed("meshing", [&]() -> Mesh {
     if (options_.kind == MeshKind::kSurface) return delsurf(oracle, {surface, control()}, run_report_);
-    return deltetsurf(oracle, {surface, tet_criteria(1), control()}, run_report_);
+    const double min_fold = min_fold_for(min_dihedral_degrees());
+    return deltetsurf(oracle, {surface, tet_criteria(1), control(), min_fold}, run_report_);
   });
 }
 
 // A bound that was asked for is promised, so that the check fails where it does not hold.
 void MeshingRun::remove_slivers_of(TetMesh& mesh, const Oracle& oracle) {
-  const double bound = options_.min_dihedral_degrees.value_or(kDefaultMinDihedralDegrees);
+  const double bound = min_dihedral_degrees();
   if (bound == 0 || run_report_.stop != StopReason::kFinished) return;
   const RemoveSliversOptions options{bound, surface_criteria(size_), tet_criteria(1), control()};
   sliver_report_ = watch_.timed("slivers", [&] { return remove_slivers(mesh, oracle, options, run_report_); });

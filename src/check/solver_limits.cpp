@@ -1,6 +1,7 @@
 // Limits of Abaqus/CAE's mesh verification (Abaqus/CAE User's Guide, "Verifying element quality", defaults for tets)
 // and of ANSYS's shape checking (Mechanical APDL Theory Reference, 12.1, defaults for tets; faces only, no
-// cross-sections).
+// cross-sections). The measures were compared with 12.1.2 there and with Altair's account of both programs' checks
+// ("Element quality calculations"); the pages with the numbers of the limits could not be read.
 #include "check/solver_limits.h"
 
 #include <algorithm>

@@ -31,6 +31,10 @@ double DensityLaw::modulus_mpa(double density) const {
   return piece->a * std::pow(density, piece->b) + piece->c;
 }
 
+// What could be read of the sources: the pieces of `keyak`, as table 1 of PMC6069821 (2018) quotes them from the two
+// papers; of Morgan's, in the abstract, that densities are apparent and that the exponents range from 1.49 to 2.18. The
+// other figures are those by which the papers are commonly quoted. (The table has 10500 rho^2.51 for a law of Keller's
+// whose site it does not name.)
 const std::vector<DensityLaw>& density_laws() {
   static const std::string kMorgan = "Morgan, Bayraktar, Keaveny, J Biomech 36:897, 2003, trabecular bone of the ";
   static const std::vector<DensityLaw> kLaws{

@@ -27,6 +27,10 @@ void check_criteria(const TetCriteria& criteria) {
   if (!(criteria.grade >= 0)) throw OptionError("grade must not be negative");
 }
 
+void check_min_fold(double degrees) {
+  if (!(degrees >= 0 && degrees <= 90)) throw OptionError("the bound on folds must be from 0 to 90 degrees");
+}
+
 Promises promises_of(const SurfaceCriteria& criteria) {
   Promises promises;
   promises.min_angle_degrees = criteria.min_angle_degrees;

@@ -9,6 +9,8 @@ namespace delvox {
 /// Throws OptionError unless the criteria are such that refinement is known to end (book, 14.4 and 14.5).
 void check_criteria(const SurfaceCriteria& criteria);
 void check_criteria(const TetCriteria& criteria);
+/// Likewise.
+void check_min_fold(double degrees);
 
 /// The criteria as promises; size fields promise their maximum.
 Promises promises_of(const SurfaceCriteria& criteria);

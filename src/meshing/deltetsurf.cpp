@@ -13,27 +13,31 @@ namespace delvox {
 TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunReport& report) {
   check_criteria(options.surface);
   check_criteria(options.tets);
+  check_min_fold(options.min_fold_degrees);
   report = RunReport{};
   Refinement refinement(oracle, options.surface, options.control, report);
   RunBudget& budget = refinement.budget();
 
   budget.begin_stage("seeds");
   refinement.insert_seeds();  // step 1
-  const auto repair_topology = [&] {
+  const auto repair_surface = [&] {
     budget.begin_stage("topology");
-    return refinement.repair();  // step 5
+    if (refinement.repair()) return true;  // step 5
+    if (options.min_fold_degrees == 0) return false;
+    budget.begin_stage("folds");
+    return refinement.repair_folds(options.min_fold_degrees);
   };
   do {
     budget.begin_stage("surface");
     refinement.refine();  // steps 2 and 3, Quality
-  } while (repair_topology());
+  } while (repair_surface());
   budget.begin_stage("interior");
   refinement.fill_interior(options.tets);  // not in the book: most of what step 7 would insert, at once
   refinement.watch_tets(options.tets);
   do {
     budget.begin_stage("tets");
     refinement.refine();  // step 7, returning to steps 2 and 3 after each surface insertion
-  } while (repair_topology());
+  } while (repair_surface());
   budget.end_stage();
 
   refinement.report_unmet();

@@ -20,6 +20,7 @@
 namespace delvox {
 
 class InteriorLattice;
+struct Fold;
 
 /// Del S under refinement with its lazy queues (book, 14.1.3): facets that may be restricted, vertices whose umbrella
 /// may have changed, and, once watched, tetrahedra that break a criterion. Refinement works in lanes: it treats many
@@ -37,6 +38,9 @@ class Refinement {
   void refine();
   /// Step 5, then landmarks; neither once step 5 has turned out to be hopeless. True if anything was inserted.
   bool repair() { return !effort_.hopeless() && (repair_topology() || repair_landmarks()); }
+  /// Not in the book: one insertion for each fold of the surface that is sharper than the bound, until its balls are
+  /// the smallest; none once step 5 has turned out to be hopeless. True if anything was inserted.
+  bool repair_folds(double min_fold_degrees);
 
   /// Fills the inside with a lattice where a constant bound on circumradii leaves room for one.
   void fill_interior(const TetCriteria& criteria);
@@ -106,6 +110,9 @@ class Refinement {
   /// field foresees.
   bool repair_landmarks();
 
+  // Folds (fold_repair.cpp)
+  bool split_fold(const Fold& fold);
+
   // Landmarks (landmark_repair.cpp)
   std::vector<LandmarkWatch::Due> find_misplaced(const std::vector<LandmarkWatch::Due>& due);
   CellId cell_of_landmark(const LandmarkWatch::Due& due, CellId hint) const;
@@ -163,6 +170,7 @@ class Refinement {
   std::vector<VertexId> since_edges_;  // vertices at which facets may be new since then
   double shortest_excursion_ = 0.1;  // of Voronoi edges that the mesh takes notice of, in sizes
   bool looks_closer_ = false;
+  std::uint32_t folds_from_ = 0;  // cells with this stamp or a later one were not there when folds were looked for
   std::optional<SurfaceTopology> expected_topology_;
   std::size_t vertices_at_first_look_ = 0, closer_insertions_ = 0;
   RepairEffort effort_;

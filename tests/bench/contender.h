@@ -15,6 +15,7 @@ struct BenchCriteria {
   double cell_size = 1;  ///< bound on circumradii of tets
   double angle_degrees = 30;
   double radius_edge = 2;
+  bool optimise = false;  ///< against slivers: remove_slivers() at 15 degrees; CGAL's perturber and exuder
 };
 
 /// Choices that CGAL leaves to its user; the defaults are CGAL's own.
@@ -39,10 +40,11 @@ struct BenchRun {
 /// What the program would run with: its defaults beside the criteria.
 DelTetSurfOptions program_options(const Volume& volume, const BenchCriteria& criteria);
 
-/// Read volume once -> isosurface oracle -> deltetsurf -> extracted mesh.
+/// Read volume once -> isosurface oracle -> deltetsurf -> extracted mesh -> remove_slivers if asked for.
 BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const BenchCriteria& criteria);
 
-/// Image in memory -> domain -> make_mesh_3 without perturber, exuder, Lloyd and ODT. Extraction is not timed.
+/// Image in memory -> domain -> make_mesh_3 without Lloyd and ODT, without perturber and exuder unless asked for.
+/// Extraction is not timed.
 BenchRun run_mesh3(BenchImage image, const BenchCriteria& criteria, const Mesh3Choices& choices);
 
 /// CGAL's Delaunay_triangulation_3 of the points, inserted as a range (spatially sorted): what nobody who inserts every

@@ -3,7 +3,9 @@
 #include <sstream>
 
 #include "contender.h"
+#include "delvox/meshing/remove_slivers.h"
 #include "delvox/oracle/isosurface_oracle.h"
+#include "mesh_measures.h"
 
 namespace delvox::bench {
 
@@ -17,6 +19,7 @@ DelTetSurfOptions program_options(const Volume& volume, const BenchCriteria& cri
   options.surface.thin_ball_radius = 0.25 * voxel;
   options.tets.cell_size = criteria.cell_size;
   options.tets.radius_edge = criteria.radius_edge;
+  if (criteria.optimise) options.min_fold_degrees = min_fold_for(kMinDihedralDegrees);
   return options;
 }
 
@@ -28,6 +31,9 @@ BenchRun run_delvox(const Volume& volume, const Isosurface& surface, const Bench
   const auto oracle = make_isosurface_oracle(volume, surface);
   const double oracle_bytes = meter.peak_bytes();
   run.mesh = deltetsurf(*oracle, options, report);
+  if (criteria.optimise) {
+    remove_slivers(run.mesh, *oracle, {kMinDihedralDegrees, options.surface, options.tets, {}}, report);
+  }
   meter.stop(run);
 
   std::ostringstream note;

@@ -108,14 +108,15 @@ BenchRun run_tagged(BenchImage& image, const BenchCriteria& bounds, const Mesh3C
                           params::facet_topology = CGAL::FACET_VERTICES_ON_SURFACE,
                           params::cell_radius_edge_ratio = bounds.radius_edge, params::cell_size = bounds.cell_size);
   const auto topology = choices.manifold ? params::manifold() : params::non_manifold();
+  const auto perturb = bounds.optimise ? params::perturb() : params::no_perturb();
+  const auto exude = bounds.optimise ? params::exude() : params::no_exude();
   Complex complex;
   if (choices.component_seeds) {
     initialize_triangulation_from_gray_image(complex, domain, cgal_image, criteria, image.level, float());
-    CGAL::refine_mesh_3(complex, domain, criteria, params::no_perturb(), params::no_exude(), params::no_lloyd(),
-                        params::no_odt(), topology);
+    CGAL::refine_mesh_3(complex, domain, criteria, perturb, exude, params::no_lloyd(), params::no_odt(), topology);
   } else {
-    complex = CGAL::make_mesh_3<Complex>(domain, criteria, params::no_perturb(), params::no_exude(), params::no_lloyd(),
-                                         params::no_odt(), topology);
+    complex = CGAL::make_mesh_3<Complex>(domain, criteria, perturb, exude, params::no_lloyd(), params::no_odt(),
+                                         topology);
   }
   meter.stop(run);
   run.mesh = extract(complex, image.spacing);

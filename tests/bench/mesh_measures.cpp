@@ -85,11 +85,13 @@ void measure_tets(const TetMesh& mesh, MeshMeasures& m) {
       const auto& f = kTetFaces[i];
       normal[i] = cross(p[f[1]] - p[f[0]], p[f[2]] - p[f[0]]);
     }
+    double smallest = std::numbers::pi;
     for (int i = 0; i < 4; ++i)
       for (int j = i + 1; j < 4; ++j) {
-        const double angle = std::atan2(norm(cross(normal[i], normal[j])), -dot(normal[i], normal[j]));
-        m.min_dihedral_degrees = std::min(m.min_dihedral_degrees, kDegrees * angle);
+        smallest = std::min(smallest, std::atan2(norm(cross(normal[i], normal[j])), -dot(normal[i], normal[j])));
       }
+    m.min_dihedral_degrees = std::min(m.min_dihedral_degrees, kDegrees * smallest);
+    m.slivers += kDegrees * smallest < kMinDihedralDegrees;
   }
   for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
     m.vertices += used[v];

@@ -7,6 +7,9 @@
 
 namespace delvox::bench {
 
+/// Tets with a smaller dihedral angle count as slivers.
+inline constexpr double kMinDihedralDegrees = 15;
+
 /// What is said of every contender's mesh, computed by one piece of code from points and tets alone.
 struct MeshMeasures {
   std::size_t tets = 0;
@@ -18,6 +21,7 @@ struct MeshMeasures {
   std::size_t flat_tets = 0;           ///< volume 0 or less: orientation not as delvox/core/mesh.h has it
   double volume_mm3 = 0;
   double min_dihedral_degrees = 180;
+  std::size_t slivers = 0;
   double min_angle_degrees = 180;  ///< of boundary triangles
   double max_radius_edge = 0;
   double max_circumradius = 0;  ///< mm

@@ -102,6 +102,7 @@ std::vector<Line> lines(const Column* ours) {
        }},
       {"smallest dihedral, deg", false,
        [](const Column&, const Outcome& r) { return text("%.3f", r.mesh.min_dihedral_degrees); }},
+      {"tets with less than 15 deg", false, [](const Column&, const Outcome& r) { return count(r.mesh.slivers); }},
       {"smallest surface angle, deg", false,
        [](const Column&, const Outcome& r) { return text("%.3f", r.mesh.min_angle_degrees); }},
       {"largest radius-edge", false,
@@ -153,7 +154,7 @@ std::string scoreboard(const std::vector<Column>& columns) {
 
 std::string csv_names() {
   return "contender,runs,seconds,least_seconds,most_seconds,cpu_seconds,tets,vertices,all_cells,peak_bytes,"
-         "bad_edges,min_dihedral_degrees";
+         "bad_edges,min_dihedral_degrees,slivers";
 }
 
 std::string csv_rows(const std::vector<Column>& columns, const std::string& setting) {
@@ -165,8 +166,8 @@ std::string csv_rows(const std::vector<Column>& columns, const std::string& sett
     rows += setting + "," + column.name;
     rows += text(",%zu,%.4f,%.4f,%.4f,%.4f", times.size(), run.seconds, times.front(), times.back(),
                  median_time(column, &Outcome::cpu_seconds));
-    rows += text(",%zu,%zu,%zu,%.0f,%zu,%.4f\n", run.mesh.tets, run.mesh.vertices, run.all_cells, run.peak_bytes,
-                 run.mesh.bad_edges, run.mesh.min_dihedral_degrees);
+    rows += text(",%zu,%zu,%zu,%.0f,%zu,%.4f,%zu\n", run.mesh.tets, run.mesh.vertices, run.all_cells, run.peak_bytes,
+                 run.mesh.bad_edges, run.mesh.min_dihedral_degrees, run.mesh.slivers);
   }
   return rows;
 }

@@ -47,6 +47,16 @@ TEST(CheckOptions, SurfaceCriteriaUnderWhichRefinementNeedNotEndAreRefused) {
   }
 }
 
+TEST(CheckOptions, FoldsAreBoundFromNoughtToNinetyDegrees) {
+  const auto oracle = test::voxel_phantom_oracle("sphere", test::cubic_image(12));
+  for (double degrees : {-1.0, 90.1, kNan}) {
+    DelTetSurfOptions options;
+    options.min_fold_degrees = degrees;
+    RunReport report;
+    EXPECT_THROW(deltetsurf(*oracle, options, report), OptionError) << degrees;
+  }
+}
+
 TEST(CheckOptions, TetCriteriaUnderWhichRefinementNeedNotEndAreRefused) {
   const auto oracle = test::voxel_phantom_oracle("sphere", test::cubic_image(12));
   std::vector<std::function<void(TetCriteria&)>> bad;

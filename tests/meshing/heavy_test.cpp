@@ -1,7 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
+
 #include "delvox/meshing/delsurf.h"
 #include "delvox/meshing/deltetsurf.h"
+#include "delvox/meshing/remove_slivers.h"
 #include "mesh_expectations.h"
 #include "phantom_cases.h"
 
@@ -77,6 +81,62 @@ INSTANTIATE_TEST_SUITE_P(EveryKind, HeavyTopology, testing::ValuesIn(every_kind(
                          [](const auto& info) { return test::test_name(info.param); });
 
 TEST_P(HeavyTopology, AtHalfAVoxelIsThatOfTheVoxels) { expect_topology_of_the_voxels(GetParam()); }
+
+// Slivers, at 300,000 tets.
+
+struct Repaired {
+  TetMesh mesh;
+  SliverReport slivers;
+};
+
+Repaired without_slivers(const PhantomCase& c, double min_dihedral_degrees) {
+  const auto oracle = make_isosurface_oracle(c.volume(), c.isosurface());
+  RemoveSliversOptions options;
+  options.min_dihedral_degrees = min_dihedral_degrees;
+  options.surface.size = c.size;
+  options.surface.min_ball_radius = 1e-4 * c.voxel();
+  options.tets.cell_size = c.size;
+  RunReport report;
+  Repaired result;
+  result.mesh = deltetsurf(*oracle, {options.surface, options.tets, {}, min_fold_for(min_dihedral_degrees)}, report);
+  result.slivers = remove_slivers(result.mesh, *oracle, options, report);
+  test::expect_finished(report);
+  return result;
+}
+
+class HeavySlivers : public testing::TestWithParam<PhantomCase> {};
+
+/// A case for each kind of phantom as it is by default, at a voxel.
+std::vector<PhantomCase> every_kind_in_full() {
+  std::vector<PhantomCase> cases = every_kind();
+  for (PhantomCase& c : cases) {
+    c.image = phantom_defaults(c.kind);
+    c.size = c.voxel();
+  }
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryKind, HeavySlivers, testing::ValuesIn(every_kind_in_full()),
+                         [](const auto& info) { return test::test_name(info.param); });
+
+TEST_P(HeavySlivers, AreGoneFromMeshesOf300000TetsUpTo20DegreesWhereTheShapeIsSmooth) {
+  constexpr double kTets = 300'000;
+  const std::set<std::string> smooth{"sphere", "ellipsoid", "torus", "shells", "touching-balls", "gyroid",
+                                     "oblique-sphere"};
+  PhantomCase c = GetParam();
+  const double degrees = smooth.count(c.kind) ? 20 : 15;
+  Repaired repaired;
+  for (int run = 0; run < 4; ++run) {
+    repaired = without_slivers(c, degrees);
+    const double ratio = static_cast<double>(repaired.mesh.tets.size()) / kTets;
+    if (ratio > 0.9 && ratio < 1.2) break;
+    c.size *= std::cbrt(ratio);
+  }
+  EXPECT_NEAR(static_cast<double>(repaired.mesh.tets.size()), kTets, 0.5 * kTets);
+  for (const UnmetTet& tet : repaired.slivers.unmet) ADD_FAILURE() << tet.dihedral_degrees << ": " << tet.reason;
+  test::expect_all_checks_hold(repaired.mesh);
+  EXPECT_EQ(repaired.mesh.info.promises.min_dihedral_degrees, degrees);
+}
 
 void expect_topology_of_noise(int n, std::uint64_t seed) {
   SCOPED_TRACE(seed);

@@ -30,6 +30,7 @@ TEST_P(Threads, OneTwoAndFourMakeTheSameMeshes) {
   options.surface.size = c.size;
   options.surface.min_ball_radius = c.min_ball_radius();
   options.tets.cell_size = c.size;
+  options.min_fold_degrees = 45;
   DelSurfOptions surface_options;
   surface_options.surface = options.surface;
   TetMesh first;

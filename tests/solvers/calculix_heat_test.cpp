@@ -3,17 +3,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
+#include <limits>
+#include <numbers>
 
 #include "delvox/mesh_io/write_mesh.h"
 #include "delvox/meshing/second_order.h"
 #include "solvers/calculix.h"
+#include "support/tet_integral.h"
 
 namespace delvox::test {
 namespace {
 
-/// Root of the mean square error of T at the nodes, each weighted by a quarter of the volumes of its corner's tets (of
-/// mid-side nodes: a sixth).
+/// The L2 norm of the error of T over the mesh, over that of the ball's T.
 double temperature_error(double size, bool second_order) {
   const auto oracle = ball(1);
   TetMesh mesh = tets_of(*oracle, size);
@@ -25,24 +26,23 @@ double temperature_error(double size, bool second_order) {
       "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nNALL, 0.\n*STEP\n*HEAT TRANSFER, STEADY STATE\n"
       "*BOUNDARY\nSURFACE, 11, 11, 0.\n*DFLUX\nEALL, BF, 6.\n*NODE PRINT, NSET=NALL\nNT\n*END STEP\n");
   EXPECT_EQ(ccx.run(), "");
-  std::vector<double> weight(mesh.points.size(), 0);
+  std::vector<double> temperature(mesh.points.size(), std::numeric_limits<double>::quiet_NaN());
+  for (const auto& row : ccx.rows(2)) temperature[static_cast<std::size_t>(row[0]) - 1] = row[1];
+  double squares = 0, volume = 0;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-    const Tet& v = mesh.tets[t];
-    const Point3 a = mesh.points[v[0]];
-    const double volume = dot(cross(mesh.points[v[1]] - a, mesh.points[v[2]] - a), mesh.points[v[3]] - a) / 6;
-    for (std::uint32_t node : v) weight[node] += volume / 4;
-    if (!second_order) continue;
-    for (std::uint32_t node : mesh.mid_nodes[t]) weight[node] += volume / 6;
+    for_each_sample(mesh, t, [&](const TetSample& sample) {
+      double error = -(1 - squared_norm(sample.where));
+      for (std::size_t i = 0; i < 4; ++i) error += sample.shape[i] * temperature[mesh.tets[t][i]];
+      for (std::size_t i = 0; second_order && i < 6; ++i) {
+        error += sample.shape[4 + i] * temperature[mesh.mid_nodes[t][i]];
+      }
+      squares += sample.weight * error * error;
+      volume += sample.weight;
+    });
   }
-  double sum = 0;
-  const auto rows = ccx.rows(2);
-  EXPECT_EQ(rows.size(), mesh.points.size());
-  for (const auto& row : rows) {
-    const auto node = static_cast<std::size_t>(row[0]) - 1;
-    const double error = row[1] - (1 - squared_norm(mesh.points[node]));
-    sum += weight[node] * error * error;
-  }
-  return std::sqrt(sum / std::accumulate(weight.begin(), weight.end(), 0.0));
+  constexpr double kBall = 4 * std::numbers::pi / 3, kSquares = 32 * std::numbers::pi / 105;
+  EXPECT_NEAR(volume, kBall, second_order ? 0.002 * kBall : 0.2 * kBall);
+  return std::sqrt(squares / kSquares);
 }
 
 /// Slope of log error over log size, fitted.
@@ -61,7 +61,8 @@ double order(bool second_order, const std::vector<double>& sizes) {
 
 TEST(CalculixHeat, TheErrorFallsAtTheOrderOfTheTets) {
   if (!has_calculix()) GTEST_SKIP() << "no ccx";
-  const double first = order(false, {0.4, 0.28, 0.2, 0.14}), second = order(true, {0.4, 0.28, 0.2, 0.14});
+  // Straight tets err by the sphere's bulge too, whose share settles at finer sizes only.
+  const double first = order(false, {0.2, 0.14, 0.1, 0.07}), second = order(true, {0.4, 0.28, 0.2, 0.14});
   RecordProperty("first", std::to_string(first));
   RecordProperty("second", std::to_string(second));
   EXPECT_GE(first, 1.9);

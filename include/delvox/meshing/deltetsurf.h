@@ -12,6 +12,10 @@ struct DelTetSurfOptions {
   SurfaceCriteria surface;
   TetCriteria tets;
   RunControl control;
+  /// Where two triangles of the boundary hold a wedge of the inside sharper than this between them, the surface is
+  /// refined, until it is not or the balls are the smallest: tets can be no better than the wedge that they lie in.
+  /// 0 to 90; 0 leaves folds as they are.
+  double min_fold_degrees = 0;
 };
 
 /// DelTetSurf (book, 14.5), the isosurface variant on the boundary of Del|O: tetrahedra of the inside, whose boundary

@@ -10,6 +10,10 @@
 
 namespace delvox {
 
+/// The fold that leaves room for three tets of such angles side by side: DelTetSurfOptions::min_fold_degrees for a mesh
+/// that slivers are to be removed from.
+constexpr double min_fold_for(double min_dihedral_degrees) { return 3 * min_dihedral_degrees; }
+
 /// What remove_slivers is asked for, and what the mesh was made with.
 struct RemoveSliversOptions {
   double min_dihedral_degrees = 15;  ///< the smallest dihedral angle wanted, above 0 and up to 30
