@@ -8,6 +8,7 @@
 #include "delvox/core/errors.h"
 #include "delvox/oracle/implicit_oracle.h"
 #include "oracle/formula_algebra.h"
+#include "oracle/formula_crossings.h"
 
 namespace delvox {
 
@@ -103,6 +104,9 @@ std::unique_ptr<SmoothOracle> make_formula_oracle(const Formula& formula, const 
   ImplicitFunction function;
   function.value = [formula](const Point3& p) { return formula.value(p); };
   function.gradient = [formula](const Point3& p) { return formula.gradient(p); };
+  function.crossings = [formula, resolution](const Point3& a, const Point3& b) {
+    return formula_crossings(formula.code_->program(), a, b, 0.25 * resolution);
+  };
   function.box = box;
   function.resolution = resolution;
   check_function(function);
