@@ -65,8 +65,8 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
       ->type_name("DEG");
   app.add_option(
          "--min-ball-radius", options.min_ball_radius,
-         "Topology, deviation and roughness leave surface balls this small alone, mm (default: 0.0001 voxel; for "
-         "formulas and polygon surfaces 0.001 size; for roughness 0.1 voxel, or 0.05 size)")
+         "Topology, deviation, roughness and --restricted all leave surface balls this small alone, mm (default: "
+         "0.0001 voxel; for formulas and polygon surfaces 0.001 size; for the last two 0.5 voxel, or 0.05 size)")
       ->check(finite_number(Zero::kAllowed))
       ->type_name("MM");
 }

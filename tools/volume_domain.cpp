@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMinBallRadiusVoxels = 0.0001, kThinBallRadiusVoxels = 0.25;
 // The trilinear surface has a crease at every face of a voxel.
-constexpr double kMinSmoothRadiusVoxels = 0.1;
+constexpr double kMinSmoothRadiusVoxels = 0.5;
 
 /// Whether an isovalue takes passes over the samples: all but a number do.
 bool needs_samples(const std::string& iso) {

@@ -93,13 +93,9 @@ bool Refinement::mend_inadequate() {
   for (PersistentTriangle& triangle : persistent_) {
     const auto& v = triangle.vertices;
     if (std::any_of(v.begin(), v.end(), [this](VertexId vertex) { return has_triangle(vertex); })) continue;
-    mended |= split_largest_ball_at(v);
+    mended |= split_largest_ball_at(v) || reinsert(triangle) || replace(triangle);
   }
-  if (mended || has_any_triangle()) return mended;
-  for (PersistentTriangle& triangle : persistent_) mended |= reinsert(triangle);
-  if (mended || split_largest_ball_at(surface_vertices())) return true;
-  for (PersistentTriangle& triangle : persistent_) mended |= replace(triangle);
-  return mended;
+  return mended || (!has_any_triangle() && split_largest_ball_at(surface_vertices()));
 }
 
 bool Refinement::reinsert(PersistentTriangle& triangle) {

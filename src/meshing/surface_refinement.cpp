@@ -106,7 +106,8 @@ Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) co
   const double size = surface_.size(ball.center), smallest = surface_.min_ball_radius;
   if (ball.squared_radius > size * size) return Verdict::kSplit;
   if (!delaunay_.bipolar(facet)) {
-    return ball.squared_radius <= smallest * smallest ? Verdict::kTwoFaced : Verdict::kSplit;
+    const double left = surface_.min_smooth_radius;
+    return ball.squared_radius <= left * left ? Verdict::kTwoFaced : Verdict::kSplit;
   }
   if (!shapes_matter()) return Verdict::kGood;
   const auto v = delaunay_.vertices(facet);

@@ -44,7 +44,7 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
   void SetUp() override {
     surface_.size = kSize;
     surface_.min_ball_radius = 0.1;
-    refinement_.emplace(*oracle_, surface_, control_, report_);
+    refinement_.emplace(*oracle_, surface_, control_, Variant{}, report_);
     refinement_->start();
     refine_surface();
     refinement_->fill_interior(lattice_);

@@ -121,6 +121,16 @@ TEST(PersistentStart, EveryComponentGetsOne) {
   }
 }
 
+TEST(PersistentStart, ComponentsSmallerThanTheSizeAreNotLost) {
+  const auto balls = formula("min(x^2+y^2+z^2-1, min((x-1.4)^2+y^2+z^2-0.01, (x+1.4)^2+y^2+z^2-0.01))");
+  for (Restricted restricted : kBoth) {
+    RunReport report;
+    const SurfaceMesh mesh = mesh_of(*balls, options_for(0.3, {Start::kPersistent, restricted, 5}), report);
+    EXPECT_EQ(test::topology_of(mesh).components, 3u);
+    EXPECT_EQ(test::topology_of(mesh).euler, 6);
+  }
+}
+
 // Theorem 14.9 (i): a manifold whatever the size. Triangles do not persist at sizes as large as the surface.
 TEST(PersistentStart, AnySizeGivesAManifold) {
   const auto oracle = torus();

@@ -58,7 +58,13 @@ TEST(CliFormula, RoughnessIsBoundedPromisedAndCheckedOrToldWhereItCannotBeHad) {
     EXPECT_EQ(json::parse(surface.out)["mesh"]["promises"]["max_roughness_degrees"], 10);
   }
   EXPECT_TRUE(read_file(folder / "1.vtu") == read_file(folder / "2.vtu"));
-  EXPECT_EQ(run_on(folder, {"check", "1.vtu"}).code, 0);
+  const Outcome check = run_on(folder, {"check", "1.vtu", "--json"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  for (const json& one : json::parse(check.out)["meshes"][0]["checks"]) {  // held to what the file carries
+    if (one["name"] != "roughness") continue;
+    EXPECT_EQ(one["status"], "passed");
+    EXPECT_EQ(one["bound"], 10);
+  }
   EXPECT_EQ(run_on(folder, {"check", "1.vtu", "--max-roughness", "10"}).code, 0);
   const Outcome smoother = run_on(folder, {"check", "1.vtu", "--max-roughness", "5", "--quiet"});
   EXPECT_EQ(smoother.code, 5);

@@ -131,7 +131,7 @@ TEST_F(CliVariants, WhatMakesNoSenseIsAUsageError) {
   expect_usage_error(with({"--size", "0.1+"}), {"--size", "nor a formula", "position"});
   expect_usage_error(with({"--size", "sizes.nii"}), {"--size", "sizes.nii", "volume file"});
   expect_usage_error(with({"--size", "0.1*x"}), {"--size", "positive"});
-  expect_usage_error({"tet", "--implicit", kTorus, kBox, "--algorithm", "delsurf1"}, {"--algorithm"});
+  expect_usage_error({"tet", "--implicit", kTorus, kBox, "--algorithm=delsurf1"}, {"--algorithm"});
 }
 
 }  // namespace

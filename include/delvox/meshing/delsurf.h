@@ -12,7 +12,7 @@ namespace delvox {
 struct DelSurfOptions {
   SurfaceCriteria surface;
   RunControl control;
-  Variant variant;
+  Variant variant = {};
 };
 
 /// DelSurf (book, 14.3) with Quality and Smooth (14.4): a closed 2-manifold triangulation of the oracle's surface,

@@ -13,7 +13,7 @@ struct DelTetSurfOptions {
   SurfaceCriteria surface;
   TetCriteria tets;
   RunControl control;
-  Variant variant;
+  Variant variant = {};
 };
 
 /// DelTetSurf (book, 14.5), in its isosurface variant or on Del|Sigma as a whole: tetrahedra of the inside, whose
