@@ -50,10 +50,11 @@ std::string elements(const Forecast& forecast) {
   return "at least " + elements(forecast.least) + ", " + likely + " if parts thinner than the size are resolved";
 }
 
-std::string describe(const ProcessForecast& forecast) {
+std::string describe(const ProcessForecast& forecast, const std::string& extra) {
   const double seconds = forecast.mesh.likely.seconds;
   return "forecast: " + elements(forecast.mesh) + "; " + (seconds < 100 ? number(seconds, 2) : about(seconds)) +
-         " s, " + memory_text(forecast.peak_bytes()) + " of memory in all";
+         " s, " + memory_text(forecast.peak_bytes()) + " of memory in all" +
+         (extra.empty() ? "" : ", and more for " + extra);
 }
 
 std::string memory_text(double bytes) {

@@ -21,8 +21,8 @@ struct ProcessForecast {
 /// A run that ends at so many vertices (0: no limit) takes that part of what it would have taken.
 Forecast limited(Forecast forecast, std::size_t max_vertices);
 
-/// One line for people.
-std::string describe(const ProcessForecast& forecast);
+/// One line for people. `extra`: what the forecast does not count; empty: nothing.
+std::string describe(const ProcessForecast& forecast, const std::string& extra = {});
 
 /// "about 52,000 vertices, 280,000 tets", and what there is at least if it has thin parts.
 std::string elements(const Forecast& forecast);

@@ -43,6 +43,7 @@ class MeshingDomain {
   /// Defaults of SurfaceCriteria for surfaces refined to `size`, mm.
   virtual double min_ball_radius(const SizeField& size) const = 0;
   virtual double thin_ball_radius(const SizeField& size) const = 0;
+  virtual double min_smooth_radius(const SizeField& size) const { return 0.05 * size.minimum(); }
 
   /// The oracle for a run at `size`. Throws NothingToMesh if nothing is left at that size.
   virtual std::unique_ptr<Oracle> make_oracle(const SizeField& size, Stopwatch& watch) = 0;

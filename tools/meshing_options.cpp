@@ -10,11 +10,18 @@ namespace delvox::tools {
 namespace {
 
 void add_size_options(CLI::App& app, MeshingOptions& options) {
-  auto* size = app.add_option("--size", options.size,
-                              "Upper bound on the radii of surface Delaunay balls, mm: a number, or a volume file as "
-                              "size field (default: 1/60 of the diagonal of the box around what is meshed, of volumes "
-                              "at least 1.5 voxel; 1/40 of that of a formula's --box)");
+  auto* size = app.add_option(
+      "--size", options.size,
+      "Upper bound on the radii of surface Delaunay balls, mm: a number; a volume file as size "
+      "field; a formula in x, y, z; lfs or curvature: --epsilon times the local feature size "
+      "or the radius of curvature (default: 1/60 of the diagonal of the box around what is meshed, of volumes "
+      "at least 1.5 voxel; 1/40 of that of a formula's --box; of --algorithm delsurf1 lfs, of delsurf2 none)");
   size->type_name("S");
+  app.add_option("--epsilon", options.epsilon,
+                 "With --size lfs or curvature: the share of it, up to 1; up to 0.08 meshes are known to be right "
+                 "(default: 0.08)")
+      ->check(finite_number(Zero::kExcluded) & CLI::Range(0.0, 1.0))
+      ->type_name("E");
   if (options.kind == MeshKind::kSurface) return;
   app.add_option("--tets", options.tets, "Find the size that gives about this many tets")
       ->check(CLI::Range(100.0, 1e9))
@@ -31,19 +38,11 @@ void add_size_options(CLI::App& app, MeshingOptions& options) {
       ->type_name("G");
 }
 
-void add_algorithm_option(CLI::App& app, MeshingOptions& options) {
-  app.add_option("--algorithm", options.algorithm,
-                 "delsurf: as fine as --size; delsurf2: as fine as the topology asks, and no finer unless --size says "
-                 "so, of smooth formulas and of volumes of up to 32 x 32 x 32 voxels, interpolated by a spline")
-      ->check(CLI::IsMember({"delsurf", "delsurf2"}))
-      ->capture_default_str()
-      ->type_name("NAME");
-}
-
 /// DelSurf2 takes all components of a surface without a border, and nothing foretells what that takes.
 void check_algorithm(const CLI::App& app, const MeshingOptions& options) {
   if (options.algorithm != "delsurf2") return;
-  for (const char* name : {"--largest", "--min-component", "--fill-cavities", "--border"}) {
+  for (const char* name : {"--largest", "--min-component", "--fill-cavities", "--border", "--start", "--restricted",
+                           "--max-roughness"}) {
     if (app.count(name) > 0) throw OptionError(std::string(name) + ": not with --algorithm delsurf2");
   }
   if (!options.max_memory.empty()) {
@@ -71,11 +70,50 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
                  "Upper bound on the distance from a triangle's circumcentre to its surface ball centre, mm")
       ->check(finite_number(Zero::kExcluded))
       ->type_name("MM");
-  app.add_option("--min-ball-radius", options.min_ball_radius,
-                 "Topology, folds and deviation leave surface balls this small alone, mm (default: 0.0001 voxel; for "
-                 "formulas and polygon surfaces 0.001 size)")
+  app.add_option("--max-roughness", options.max_roughness_degrees,
+                 "Upper bound on the angle between neighbouring surface triangles, pi less their dihedral angle, up to "
+                 "180. Where a surface is not smooth it cannot be had: that is counted and told")
+      ->check(angle_above_zero(180))
+      ->type_name("DEG");
+  app.add_option(
+         "--min-ball-radius", options.min_ball_radius,
+         "Topology, folds, deviation, roughness and --restricted all leave surface balls this small alone, mm (default: "
+         "0.0001 voxel; for formulas and polygon surfaces 0.001 size; for the last two 0.5 voxel, or 0.05 size)")
       ->check(finite_number(Zero::kAllowed))
       ->type_name("MM");
+}
+
+void add_algorithm_option(CLI::App& app, MeshingOptions& options) {
+  std::vector<std::string> names{"delsurf", "delsurf1"};
+  std::string text = "delsurf: a manifold whatever the size. delsurf1: looks at sizes only, for those at most 0.08 of the "
+                     "local feature size";
+  if (options.input == InputKind::kVolume) {
+    names.push_back("delsurf2");
+    text += ". delsurf2: as fine as the topology asks, and no finer unless --size says so, of smooth formulas and of "
+            "volumes of up to 32 x 32 x 32 voxels, interpolated by a spline";
+  }
+  app.add_option("--algorithm", options.algorithm, text)
+      ->check(CLI::IsMember(names))
+      ->capture_default_str()
+      ->type_name("NAME");
+}
+
+void add_variant_options(CLI::App& app, MeshingOptions& options) {
+  if (options.kind == MeshKind::kSurface) add_algorithm_option(app, options);
+  auto* start = app.add_option("--start", options.start,
+                               "What the sample begins with: seeds on all of the surface, or a persistent triangle on "
+                               "each component, whose vertices but one are deleted in the end");
+  start->check(CLI::IsMember({"seeds", "persistent"}))->capture_default_str()->type_name("HOW");
+  app.add_option("--seed", options.seed, "Of the random choice of persistent triangles")
+      ->needs(start)
+      ->capture_default_str()
+      ->type_name("N");
+  app.add_option("--restricted", options.restricted,
+                 "Triangles whose dual Voronoi edges meet the surface: those with ends on both sides of it (bipolar; "
+                 "others only where there would be none), or all")
+      ->check(CLI::IsMember({"bipolar", "all"}))
+      ->capture_default_str()
+      ->type_name("WHICH");
 }
 
 void add_limit_options(CLI::App& app, MeshingOptions& options) {
@@ -161,7 +199,7 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   } else {
     add_unit_option(app, options.output.unit);
   }
-  if (options.kind == MeshKind::kSurface && options.input == InputKind::kVolume) add_algorithm_option(app, options);
+  add_variant_options(app, options);
   add_size_options(app, options);
   add_shape_options(app, options);
   if (options.input != InputKind::kPolygons) add_volume_options(app, options);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -17,6 +18,7 @@ enum class MeshKind { kSurface, kTets };
 enum class InputKind { kVolume, kPolygons, kEither };
 
 inline constexpr double kDefaultMinDihedralDegrees = 15;
+inline constexpr double kDefaultEpsilon = 0.08;  ///< of theorem 14.2
 
 /// Everything that `surface`, `remesh` and `tet` take. The initial values are the defaults that --help shows.
 struct MeshingOptions {
@@ -26,8 +28,12 @@ struct MeshingOptions {
   IsosurfaceOptions isosurface;
   std::string implicit;                  ///< a formula in place of a volume; empty: none
   std::string box;                       ///< "x0:x1,y0:y1,z0:z1", where the formula is looked at
-  std::string algorithm = "delsurf";     ///< of surfaces: delsurf or delsurf2
-  std::string size;                      ///< a number or a volume file; empty: the domain's default
+  std::string algorithm = "delsurf";     ///< of surfaces: delsurf, delsurf1 or delsurf2
+  std::string start = "seeds";           ///< seeds or persistent
+  std::uint64_t seed = 0;                ///< of the random choice of persistent triangles
+  std::string restricted = "bipolar";    ///< bipolar or all
+  std::string size;                      ///< as size_request.h has it; empty: the domain's default, of delsurf1 lfs, of delsurf2 none
+  std::optional<double> epsilon;         ///< share of lfs or curvature; unset: the default
   std::string cell_size;                 ///< a number or a volume file; empty: as size
   double grade = 0;                      ///< growth of the cell size per mm of depth
   std::size_t tets = 0;                  ///< wanted number of tets; 0: as size says
@@ -35,6 +41,7 @@ struct MeshingOptions {
   double radius_edge = 2;
   std::optional<double> min_dihedral_degrees;  ///< 0: slivers are left; unset: the default, promised only if it is met
   std::optional<double> max_deviation;   ///< mm
+  std::optional<double> max_roughness_degrees;
   std::optional<double> min_ball_radius;  ///< mm; default: the domain's
   std::string border = "close";          ///< close or open
   std::string frame;                     ///< ras, lps, or empty: the input's own

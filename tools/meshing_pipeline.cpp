@@ -18,12 +18,12 @@
 #include "forecast.h"
 #include "format.h"
 #include "meshing_domain.h"
+#include "meshing_sizes.h"
 #include "progress.h"
 #include "report_json.h"
 #include "set_rules.h"
 #include "signals.h"
 #include "size_search.h"
-#include "sizes.h"
 #include "stopwatch.h"
 #include "thread_limit.h"
 #include "verdict.h"
@@ -61,7 +61,7 @@ class MeshingRun {
     if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
     domain_->read(watch_, console_);
     check_image();
-    decide();
+    sizes_ = decide_sizes(options_, *domain_, console_);
     mesh();
     check();
     write();
@@ -70,7 +70,7 @@ class MeshingRun {
   }
 
  private:
-  void decide();
+  Variant variant() const;
   void mesh();
   double first_size();
   void search_size();
@@ -83,6 +83,7 @@ class MeshingRun {
   void mesh_by_topology();
   void tell_effort() const;
   ProcessForecast forecast_at(const Oracle& oracle, double factor) const;
+  std::string uncounted() const;
   void look_ahead(const Oracle& oracle);
   [[noreturn]] void refuse(const Oracle& oracle, const ProcessForecast& forecast) const;
   SurfaceCriteria surface_criteria(const SizeField& size) const;
@@ -105,10 +106,8 @@ class MeshingRun {
   ProgressDisplay progress_;
   Stopwatch watch_;
   std::unique_ptr<MeshingDomain> domain_;
-  SizeField size_ = 1.0;
-  std::string size_sentence_;
-  std::optional<SizeField> cell_size_;
-  std::optional<DepthField> depth_;  // with --grade, of the oracle at size_
+  MeshingSizes sizes_;
+  std::optional<DepthField> depth_;  // with --grade, of the oracle at that size
   std::optional<double> max_bytes_;
   std::optional<Forecast> forecast_;
   Mesh mesh_;
@@ -122,21 +121,9 @@ class MeshingRun {
   std::string verdict_;
 };
 
-// Chooses the sizes, and says so.
-void MeshingRun::decide() {
-  const Frame frame = domain_->own_frame();
-  if (!options_.cell_size.empty()) cell_size_ = parse_size(options_.cell_size, "--cell-size", frame);
-  if (!options_.size.empty()) {
-    size_ = parse_size(options_.size, "--size", frame);
-    size_sentence_ = "size " + options_.size + (size_.constant() ? " mm" : "");
-  } else if (options_.algorithm == "delsurf2") {
-    size_ = std::numeric_limits<double>::infinity();
-    size_sentence_ = "no size: as fine as the topology asks";
-  } else if (options_.tets == 0) {
-    size_ = domain_->default_size();
-    size_sentence_ = "size " + number(size_.maximum()) + " mm, " + domain_->origin_of_default_size();
-    console_.note(size_sentence_);
-  }
+Variant MeshingRun::variant() const {
+  return {options_.start == "persistent" ? Start::kPersistent : Start::kSeeds,
+          options_.restricted == "all" ? Restricted::kAll : Restricted::kBipolar, options_.seed};
 }
 
 SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
@@ -145,6 +132,8 @@ SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
   surface.min_angle_degrees = options_.min_angle_degrees;
   surface.max_deviation = options_.max_deviation.value_or(std::numeric_limits<double>::infinity());
   surface.min_ball_radius = options_.min_ball_radius.value_or(domain_->min_ball_radius(size));
+  surface.max_roughness_degrees = options_.max_roughness_degrees.value_or(180);
+  surface.min_smooth_radius = options_.min_ball_radius.value_or(domain_->min_smooth_radius(size));
   surface.thin_ball_radius = domain_->thin_ball_radius(size);
   return surface;
 }
@@ -153,7 +142,7 @@ SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
 void MeshingRun::find_depths(const Oracle& oracle) {
   if (options_.grade == 0) return;
   depth_ = watch_.timed("depth", [&] {
-    return DepthField(oracle, size_, [] {
+    return DepthField(oracle, sizes_.size, [] {
       throw_if_cancelled();
       return true;
     });
@@ -162,27 +151,34 @@ void MeshingRun::find_depths(const Oracle& oracle) {
 
 // With sizes `factor` times as large.
 TetCriteria MeshingRun::tet_criteria(double factor) const {
-  const SizeField size = scaled(size_, factor);
-  if (!depth_) return {options_.radius_edge, cell_size_ ? scaled(*cell_size_, factor) : size};
-  const SizeField largest = cell_size_ ? scaled(*cell_size_, factor) : std::numeric_limits<double>::infinity();
+  const SizeField size = scaled(sizes_.size, factor);
+  if (!depth_) return {options_.radius_edge, sizes_.cell_size ? scaled(*sizes_.cell_size, factor) : size};
+  const SizeField largest =
+      sizes_.cell_size ? scaled(*sizes_.cell_size, factor) : std::numeric_limits<double>::infinity();
   return graded({options_.radius_edge, largest}, size, *depth_, options_.grade);
 }
 
 // What a run with sizes `factor` times as large is expected to take.
 ProcessForecast MeshingRun::forecast_at(const Oracle& oracle, double factor) const {
-  const SurfaceCriteria surface = surface_criteria(scaled(size_, factor));
+  const SurfaceCriteria surface = surface_criteria(scaled(sizes_.size, factor));
   const Forecast mesh = options_.kind == MeshKind::kSurface ? forecast_surface(oracle, surface)
                                                             : forecast_tets(oracle, surface, tet_criteria(factor));
   return {limited(mesh, options_.limits.max_vertices), process_memory()};
+}
+
+// What forecasts leave out.
+std::string MeshingRun::uncounted() const {
+  if (options_.max_roughness_degrees) return options_.max_deviation ? "deviation and roughness" : "roughness";
+  return options_.max_deviation ? "deviation" : "";
 }
 
 // Says what is to be expected, once for all runs of --tets, and refuses what is too much.
 void MeshingRun::look_ahead(const Oracle& oracle) {
   const ProcessForecast forecast = watch_.timed("forecast", [&] { return forecast_at(oracle, 1); });
   if (forecast_) {
-    console_.detail(describe(forecast));
+    console_.detail(describe(forecast, uncounted()));
   } else {
-    console_.note(describe(forecast));
+    console_.note(describe(forecast, uncounted()));
   }
   forecast_ = forecast.mesh;
   if (max_bytes_ && !(forecast.peak_bytes() <= *max_bytes_)) refuse(oracle, forecast);
@@ -191,9 +187,9 @@ void MeshingRun::look_ahead(const Oracle& oracle) {
 void MeshingRun::refuse(const Oracle& oracle, const ProcessForecast& forecast) const {
   const auto factor = factor_that_fits([&](double f) { return forecast_at(oracle, f); }, *max_bytes_);
   std::string mend = "no size would fit; " + domain_->how_to_shrink();
-  if (factor && size_.constant() && (!cell_size_ || cell_size_->constant())) {
-    mend = "--size " + rounded_up(*factor * size_.maximum());
-    if (cell_size_) mend += " with --cell-size " + rounded_up(*factor * cell_size_->maximum());
+  if (factor && sizes_.size.constant() && (!sizes_.cell_size || sizes_.cell_size->constant())) {
+    mend = "--size " + rounded_up(*factor * sizes_.size.maximum());
+    if (sizes_.cell_size) mend += " with --cell-size " + rounded_up(*factor * sizes_.cell_size->maximum());
     mend += options_.tets > 0 ? " in place of --tets would fit" : " would fit";
   } else if (factor) {
     mend = "sizes " + rounded_up(*factor) + " times as large would fit";
@@ -222,11 +218,14 @@ double MeshingRun::min_dihedral_degrees() const {
 
 // One run of the book's algorithm.
 Mesh MeshingRun::run_mesher(const Oracle& oracle) {
-  const SurfaceCriteria surface = surface_criteria(size_);
+  const SurfaceCriteria surface = surface_criteria(sizes_.size);
   return watch_.timed("meshing", [&]() -> Mesh {
-    if (options_.kind == MeshKind::kSurface) return delsurf(oracle, {surface, control()}, run_report_);
-    const double min_fold = min_fold_for(min_dihedral_degrees());
-    return deltetsurf(oracle, {surface, tet_criteria(1), control(), min_fold}, run_report_);
+    if (options_.kind == MeshKind::kTets) {
+      const double min_fold = min_fold_for(min_dihedral_degrees());
+      return deltetsurf(oracle, {surface, tet_criteria(1), control(), variant(), min_fold}, run_report_);
+    }
+    const auto mesher = options_.algorithm == "delsurf1" ? delsurf1 : delsurf;
+    return mesher(oracle, {surface, control(), variant()}, run_report_);
   });
 }
 
@@ -234,7 +233,7 @@ Mesh MeshingRun::run_mesher(const Oracle& oracle) {
 void MeshingRun::remove_slivers_of(TetMesh& mesh, const Oracle& oracle) {
   const double bound = min_dihedral_degrees();
   if (bound == 0 || run_report_.stop != StopReason::kFinished) return;
-  const RemoveSliversOptions options{bound, surface_criteria(size_), tet_criteria(1), control()};
+  const RemoveSliversOptions options{bound, surface_criteria(sizes_.size), tet_criteria(1), control()};
   sliver_report_ = watch_.timed("slivers", [&] { return remove_slivers(mesh, oracle, options, run_report_); });
   if (options_.min_dihedral_degrees) mesh.info.promises.min_dihedral_degrees = bound;
 }
@@ -248,7 +247,7 @@ double MeshingRun::meshing_seconds() const {
 }
 
 void MeshingRun::mesh_at(const SizeField& size) {
-  size_ = size;
+  sizes_.size = size;
   const auto oracle = domain_->make_oracle(size, watch_);
   throw_if_cancelled();
   find_depths(*oracle);
@@ -266,7 +265,7 @@ void MeshingRun::mesh_at(const SizeField& size) {
 void MeshingRun::mesh_by_topology() {
   const std::optional<SmoothDomain> domain = domain_->smooth();
   mesh_ = watch_.timed("meshing", [&] {
-    return delsurf2(*domain, {surface_criteria(size_), control()}, run_report_);
+    return delsurf2(*domain, {surface_criteria(sizes_.size), control()}, run_report_);
   });
   progress_.clear();
   tell_effort();
@@ -277,8 +276,9 @@ void MeshingRun::tell_effort() const {
     console_.detail("stage " + stage.stage + ": " + number(stage.seconds, 3) + " s");
   }
   console_.detail("inserted: surface " + grouped(run_report_.surface_insertions) + ", topology " +
-                  grouped(run_report_.topology_insertions) + ", interior " + grouped(run_report_.interior_insertions) +
-                  "; removed " + grouped(run_report_.removals));
+                  grouped(run_report_.topology_insertions) + ", smooth " + grouped(run_report_.smooth_insertions) +
+                  ", interior " + grouped(run_report_.interior_insertions) + "; removed " +
+                  grouped(run_report_.removals));
   if (sliver_report_) {
     console_.detail("slivers " + grouped(sliver_report_->slivers) + ": reconnected " +
                     grouped(sliver_report_->reconnections) + ", moved " + grouped(sliver_report_->moves) +
@@ -351,10 +351,10 @@ void MeshingRun::name_sets() {
 double MeshingRun::first_size() {
   const double guess = domain_->guess_size(options_.tets);
   if (options_.grade == 0) return guess;
-  size_ = guess;
+  sizes_.size = guess;
   double factor = 1;
   try {
-    const auto oracle = domain_->make_oracle(size_, watch_);
+    const auto oracle = domain_->make_oracle(sizes_.size, watch_);
     find_depths(*oracle);
     for (int step = 0; step < 4; ++step) {
       const double tets = forecast_at(*oracle, factor).mesh.likely.tets;
@@ -387,15 +387,16 @@ void MeshingRun::search_size() {
   });
   const bool nothing_yet = found.tets == 0 && found.end != SearchEnd::kStopped;
   if (found.size != last_size || nothing_yet) mesh_at(found.size);
-  size_sentence_ = describe(found, options_.tets);
-  console_.note(size_sentence_);
+  sizes_.sentence = describe(found, options_.tets);
+  console_.note(sizes_.sentence);
 }
 
 void MeshingRun::mesh() {
+  find_on_surface(sizes_, options_, *domain_, watch_, console_);
   if (options_.algorithm == "delsurf2") {
     mesh_by_topology();
   } else if (options_.tets == 0) {
-    mesh_at(size_);
+    mesh_at(sizes_.size);
   } else {
     search_size();
   }
@@ -432,8 +433,8 @@ void MeshingRun::write() {
 
 Json MeshingRun::report() const {
   Json json = domain_->report();
-  json.update({{"size", size_sentence_},
-               {"largest_size_mm", size_.maximum()},
+  json.update({{"size", sizes_.sentence},
+               {"largest_size_mm", sizes_.size.maximum()},
                {"forecast", forecast_ ? to_json(*forecast_) : Json()},
                {"peak_bytes", process_memory().peak},
                {"mesh", to_json(std::visit([](const auto& mesh) { return mesh.info; }, mesh_))},
@@ -456,7 +457,7 @@ std::string MeshingRun::summary() const {
     if (!unmet.breaks_promise) text += "left over: " + describe(unmet) + "\n";
   }
   if (const std::string left_out = domain_->left_out(); !left_out.empty()) text += left_out + "\n";
-  text += domain_->sentence() + "; " + size_sentence_ + "; frame " + to_string(domain_->frame().target()) + "\n";
+  text += domain_->sentence() + "; " + sizes_.sentence + "; frame " + to_string(domain_->frame().target()) + "\n";
   std::string times;
   for (const StageTime& stage : watch_.stages()) {
     if (stage.seconds >= 0.005) times += (times.empty() ? "" : ", ") + stage.stage + " " + number(stage.seconds, 3);

@@ -45,6 +45,7 @@ Json to_json(const Promises& promises) {
           {"cell_size_mm", optional_json(promises.cell_size)},
           {"grade", optional_json(promises.grade)},
           {"max_deviation_mm", optional_json(promises.max_deviation)},
+          {"max_roughness_degrees", optional_json(promises.max_roughness_degrees)},
           {"min_dihedral_degrees", optional_json(promises.min_dihedral_degrees)}};
 }
 
@@ -195,6 +196,8 @@ Json to_json(const RunReport& report) {
           {"components", report.components},
           {"surface_insertions", report.surface_insertions},
           {"topology_insertions", report.topology_insertions},
+          {"smooth_insertions", report.smooth_insertions},
+          {"reinsertions", report.reinsertions},
           {"interior_insertions", report.interior_insertions},
           {"removals", report.removals}};
 }

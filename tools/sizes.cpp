@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -16,6 +17,12 @@ namespace {
 constexpr double kSizesPerDiagonal = 60;
 constexpr double kVoxelsPerSize = 1.5;
 constexpr double kTetsPerCubedSize = 5;  // tets in a piece of organ of size^3, about (liver, head MR)
+
+bool looks_like_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return end != text.c_str() && *end == '\0';
+}
 
 double voxel_mm3(const Volume& volume) { return std::abs(volume.header().index_to_world.determinant()); }
 
@@ -120,9 +127,12 @@ double guess_size(std::size_t tets, const Volume& volume, const Isosurface& surf
   return guess_size(tets, measure_inside(volume, surface).volume_mm3);
 }
 
+bool is_size_field(const std::string& text) {
+  return looks_like_number(text) || std::filesystem::exists(text);
+}
+
 SizeField parse_size(const std::string& text, const std::string& option, Frame frame) {
-  const bool looks_like_number = !text.empty() && text.find_first_not_of("0123456789.eE+-") == std::string::npos;
-  if (!looks_like_number) {
+  if (!looks_like_number(text)) {
     if (std::filesystem::exists(text)) return size_volume(text, option, frame);
     throw OptionError(option + ": '" + text + "' is neither a number nor a volume file");
   }

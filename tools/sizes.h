@@ -15,6 +15,8 @@ double default_size(const Volume& volume, const Isosurface& surface);
 /// the size field (its samples must be positive; beyond its edges the nearest sample holds). A size volume in the other
 /// patient frame is turned to `frame`. Throws OptionError, InputError.
 SizeField parse_size(const std::string& text, const std::string& option, Frame frame);
+/// Whether a text is meant as one of those: looks like a number, or names a file.
+bool is_size_field(const std::string& text);
 
 /// A guess at the size that gives `tets` tets in so much volume.
 double guess_size(std::size_t tets, double inside_mm3);

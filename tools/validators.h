@@ -19,4 +19,9 @@ inline CLI::Validator finite_number(Zero zero) {
       "");
 }
 
+/// Accepts degrees above 0 and up to `most`.
+inline CLI::Validator angle_above_zero(double most) {
+  return finite_number(Zero::kExcluded) & CLI::Range(0.0, most);
+}
+
 }  // namespace delvox::tools

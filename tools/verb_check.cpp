@@ -52,6 +52,8 @@ void add_options(CLI::App& app, Options& options) {
   add_bound(app, "--min-angle", options.bounds.min_angle_degrees, "Lower bound on the angles of triangles", "DEG");
   add_bound(app, "--radius-edge", options.bounds.radius_edge, "Upper bound on circumradius / shortest edge", "RATIO");
   add_bound(app, "--cell-size", options.bounds.cell_size, "Upper bound on the circumradii of tets, mm", "MM");
+  add_bound(app, "--max-roughness", options.bounds.max_roughness_degrees,
+            "Upper bound on the angle between neighbouring triangles", "DEG");
   add_bound(app, "--min-dihedral", options.bounds.min_dihedral_degrees, "Lower bound on dihedral angles of tets", "DEG");
   app.add_option("--border", options.border, "open: the surface may end at the image border (default: as the mesh says)")
       ->check(CLI::IsMember({"close", "open"}))
@@ -79,6 +81,7 @@ Promises bounds_for(const MeshInfo& info, const Promises& given) {
   if (given.min_angle_degrees) bounds.min_angle_degrees = given.min_angle_degrees;
   if (given.radius_edge) bounds.radius_edge = given.radius_edge;
   if (given.cell_size) bounds.cell_size = given.cell_size;
+  if (given.max_roughness_degrees) bounds.max_roughness_degrees = given.max_roughness_degrees;
   if (given.min_dihedral_degrees) bounds.min_dihedral_degrees = given.min_dihedral_degrees;
   return bounds;
 }

@@ -13,6 +13,8 @@ namespace delvox::tools {
 namespace {
 
 constexpr double kMinBallRadiusVoxels = 0.0001, kThinBallRadiusVoxels = 0.25;
+// The trilinear surface has a crease at every face of a voxel.
+constexpr double kMinSmoothRadiusVoxels = 0.5;
 
 /// Whether an isovalue takes passes over the samples: all but a number do.
 bool needs_samples(const std::string& iso) {
@@ -57,6 +59,7 @@ class VolumeDomain final : public MeshingDomain {
   double guess_size(std::size_t tets) const override { return tools::guess_size(tets, *volume_, chosen_.surface); }
   double min_ball_radius(const SizeField&) const override { return kMinBallRadiusVoxels * smallest_spacing(); }
   double thin_ball_radius(const SizeField&) const override { return kThinBallRadiusVoxels * smallest_spacing(); }
+  double min_smooth_radius(const SizeField&) const override { return kMinSmoothRadiusVoxels * smallest_spacing(); }
 
   std::unique_ptr<Oracle> make_oracle(const SizeField& size, Stopwatch& watch) override {
     const FilteredVolume filtered = watch.timed(

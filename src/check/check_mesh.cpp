@@ -9,6 +9,7 @@
 #include "check/gradation.h"
 #include "check/point_checks.h"
 #include "check/report_builder.h"
+#include "check/roughness.h"
 #include "check/second_order_checks.h"
 #include "check/solver_limits.h"
 #include "check/surface_checks.h"
@@ -204,6 +205,8 @@ class MeshChecker {
     builder_.bounded("angle", triangles.angle, bounds_.min_angle_degrees, "deg");
     builder_.bounded("size", triangles.circumradius, bounds_.size, "mm",
                      "circumradius, the least radius that the surface ball can have");
+    builder_.bounded("roughness", check::measure_roughness(points_, triangles_, bounds_, precision_),
+                     bounds_.max_roughness_degrees, "deg");
     report_.statistics.angle_degrees = triangles.angles;
     report_.statistics.edge_mm = triangles.edges;
     if (bounds_.max_deviation) builder_.not_applicable("deviation", "needs the volume");

@@ -1,6 +1,8 @@
 #include "delaunay/restricted_delaunay.h"
 
 #include <algorithm>
+#include <tuple>
+#include <utility>
 
 #include "delaunay/spatial_order.h"
 
@@ -75,6 +77,19 @@ SurfaceBall RestrictedDelaunay::find_ball(FacetId facet, const Oracle& oracle) c
   const Point3 center =
       dual_crossing(sphere(facet.cell).center, label(facet.cell), sphere(other).center, label(other), oracle);
   return {center, squared_distance(center, point(vertices(facet)[0]))};
+}
+
+bool RestrictedDelaunay::proper(FacetId facet) const {
+  const auto v = vertices(facet);
+  const CellId other = neighbors(facet.cell)[facet.index];
+  return *std::min_element(v.begin(), v.end()) >= Delaunay3::kCorners && other != kBeyond &&
+         !(placeholder(facet.cell) && placeholder(other));
+}
+
+std::vector<Point3> RestrictedDelaunay::dual_crossings(FacetId facet, const Oracle& oracle) const {
+  const Point3 *a = &sphere(facet.cell).center, *b = &sphere(neighbors(facet.cell)[facet.index]).center;
+  if (std::tie(b->x, b->y, b->z) < std::tie(a->x, a->y, a->z)) std::swap(a, b);
+  return oracle.intersect_all(*a, *b);
 }
 
 const SurfaceBall& RestrictedDelaunay::compute_ball(FacetId facet) {

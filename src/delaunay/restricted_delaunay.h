@@ -103,6 +103,10 @@ class RestrictedDelaunay {
                               const Oracle& oracle) {
     return label_a < label_b ? oracle.intersect(center_a, center_b) : oracle.intersect(center_b, center_a);
   }
+  /// Is it a facet of Del S, that is, without corners, and of a part that is not set aside?
+  bool proper(FacetId facet) const;
+  /// Every crossing of the facet's dual edge, whatever its labels, in an order that is the same from both sides.
+  std::vector<Point3> dual_crossings(FacetId facet, const Oracle& oracle) const;
   /// The facet's surface Delaunay ball, computed anew and not kept. pre: bipolar(facet).
   SurfaceBall find_ball(FacetId facet, const Oracle& oracle) const;
 

@@ -14,6 +14,7 @@ namespace delvox {
 struct SurfaceBall {
   Point3 center;
   double squared_radius = 0;
+  bool several = false;  ///< the triangle has others too
 };
 
 /// The balls of facets, each known from both of its sides. A cell costs four bytes until one of its facets has a ball.

@@ -15,6 +15,8 @@ constexpr NumberField kNumbers[] = {
     {"delvox_cell_size", [](MeshInfo& i) -> std::optional<double>& { return i.promises.cell_size; }},
     {"delvox_grade", [](MeshInfo& i) -> std::optional<double>& { return i.promises.grade; }},
     {"delvox_max_deviation", [](MeshInfo& i) -> std::optional<double>& { return i.promises.max_deviation; }},
+    {"delvox_max_roughness_degrees",
+     [](MeshInfo& i) -> std::optional<double>& { return i.promises.max_roughness_degrees; }},
     {"delvox_min_dihedral_degrees",
      [](MeshInfo& i) -> std::optional<double>& { return i.promises.min_dihedral_degrees; }},
 };

@@ -14,6 +14,10 @@ void check_criteria(const SurfaceCriteria& criteria) {
                       ": refinement ends for 0 to 30 degrees only; choose a value in that range");
   }
   if (!(criteria.max_deviation > 0)) throw OptionError("max-deviation must be positive");
+  if (!(criteria.max_roughness_degrees > 0 && criteria.max_roughness_degrees <= 180)) {
+    throw OptionError("max-roughness must be above 0 and at most 180 degrees");
+  }
+  if (!(criteria.min_smooth_radius >= 0)) throw OptionError("the smallest radius of Smooth must not be negative");
   if (!(criteria.min_ball_radius >= 0)) throw OptionError("the smallest ball radius must not be negative");
   if (!(criteria.thin_ball_radius >= 0)) throw OptionError("the thin ball radius must not be negative");
 }
@@ -36,6 +40,7 @@ Promises promises_of(const SurfaceCriteria& criteria) {
   promises.min_angle_degrees = criteria.min_angle_degrees;
   if (std::isfinite(criteria.size.maximum())) promises.size = criteria.size.maximum();
   if (std::isfinite(criteria.max_deviation)) promises.max_deviation = criteria.max_deviation;
+  if (criteria.max_roughness_degrees < 180) promises.max_roughness_degrees = criteria.max_roughness_degrees;
   return promises;
 }
 
@@ -50,6 +55,7 @@ Promises promises_of(const SurfaceCriteria& surface, const TetCriteria& tets) {
 void withdraw_unmet(const RunReport& report, Promises& promises) {
   for (const Unmet& unmet : report.unmet) {
     if (unmet.criterion == "deviation") promises.max_deviation.reset();
+    if (unmet.criterion == "roughness") promises.max_roughness_degrees.reset();
   }
 }
 

@@ -16,7 +16,7 @@ void check_min_fold(double degrees);
 Promises promises_of(const SurfaceCriteria& criteria);
 Promises promises_of(const SurfaceCriteria& surface, const TetCriteria& tets);
 
-/// Takes back the promise of the deviation bound if the run had to leave some triangles beyond it.
+/// Takes back the promises of bounds on deviation and roughness beyond which the run had to leave some triangles.
 void withdraw_unmet(const RunReport& report, Promises& promises);
 
 }  // namespace delvox

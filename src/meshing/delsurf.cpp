@@ -5,31 +5,58 @@
 #include "meshing/refinement.h"
 
 namespace delvox {
+namespace {
 
-// DelSurf(Sigma, lambda), book section 14.3, with Quality of 14.4. Seeds on every component stand in for the persistent
-// triangle of steps 1 and 4 (figure 14.3 and the text above it); restricted triangles are those dual to bipolar edges.
-SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunReport& report) {
-  check_criteria(options.surface);
-  report = RunReport{};
-  Refinement refinement(oracle, options.surface, options.control, report);
-  RunBudget& budget = refinement.budget();
-
-  budget.begin_stage("seeds");
-  refinement.insert_seeds();  // step 1
-  do {
-    budget.begin_stage("surface");
-    refinement.refine();  // step 2, Quality
-    budget.begin_stage("topology");
-  } while (refinement.repair());  // step 3
-  budget.end_stage();
-
+// The restricted triangles of a refinement that has ended, with what they promise.
+SurfaceMesh finished_surface(Refinement& refinement, const SurfaceCriteria& criteria, RunReport& report) {
+  refinement.budget().end_stage();
   refinement.report_unmet();
   refinement.retire();
-  SurfaceMesh mesh = extract_surface(refinement.delaunay());  // step 5
-  mesh.info.promises = promises_of(options.surface);
+  SurfaceMesh mesh = extract_surface(refinement.delaunay());
+  mesh.info.promises = promises_of(criteria);
   withdraw_unmet(report, mesh.info.promises);
   mesh.info.complete = report.succeeded();
   return mesh;
+}
+
+}  // namespace
+
+// DelSurf(Sigma, lambda), book section 14.3, with Quality and Smooth of 14.4. Seeds on every component may stand in for
+// the persistent triangle of steps 1 and 4 (figure 14.3 and the text above it). Quality acts along with step 2, once
+// the persistent triangle is gone.
+SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunReport& report) {
+  check_criteria(options.surface);
+  report = RunReport{};
+  Refinement refinement(oracle, options.surface, options.control, options.variant, report);
+  RunBudget& budget = refinement.budget();
+
+  budget.begin_stage("seeds");
+  refinement.start();  // step 1
+  do {
+    do {
+      budget.begin_stage("surface");
+      refinement.refine();  // step 2, Quality
+      budget.begin_stage("topology");
+    } while (refinement.repair());                                         // step 3
+  } while (refinement.delete_persistent_vertex() || refinement.smooth());  // step 4, Smooth
+  return finished_surface(refinement, options.surface, report);            // step 5
+}
+
+// DelSurf1(Sigma, lambda), book section 14.1, with 14.1.2: the loop goes on as long as there are vertices of persistent
+// triangles to delete.
+SurfaceMesh delsurf1(const Oracle& oracle, const DelSurfOptions& options, RunReport& report) {
+  check_criteria(options.surface);
+  report = RunReport{};
+  Refinement refinement(oracle, options.surface, options.control, options.variant, report);
+  RunBudget& budget = refinement.budget();
+
+  budget.begin_stage("seeds");
+  refinement.start();  // step 1
+  budget.begin_stage("surface");
+  do {
+    refinement.refine();  // step 2
+  } while (refinement.mend_inadequate() || refinement.delete_persistent_vertex());
+  return finished_surface(refinement, options.surface, report);  // step 3
 }
 
 }  // namespace delvox

@@ -6,20 +6,21 @@
 
 namespace delvox {
 
-// DelTetSurf(Sigma, lambda, rho), book section 14.5, in its isosurface variant: the boundary of Del|O stands in for
-// Del|Sigma, so that step 4 falls away (end of 14.5); seeds on every component stand in for the persistent triangle of
-// steps 1 and 6. The surface converges before any interior vertex exists: an interior vertex that a later surface
-// vertex exposes must be removed again (step 2).
+// DelTetSurf(Sigma, lambda, rho), book section 14.5. With Restricted::kBipolar it is the isosurface variant: the
+// boundary of Del|O stands in for Del|Sigma, so that step 4 falls away (end of 14.5); with kAll, step 4 acts along with
+// step 3. Seeds on every component may stand in for the persistent triangle of steps 1 and 6. The surface converges
+// before any interior vertex exists: an interior vertex that a later surface vertex exposes must be removed again (step
+// 2).
 TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunReport& report) {
   check_criteria(options.surface);
   check_criteria(options.tets);
   check_min_fold(options.min_fold_degrees);
   report = RunReport{};
-  Refinement refinement(oracle, options.surface, options.control, report);
+  Refinement refinement(oracle, options.surface, options.control, options.variant, report);
   RunBudget& budget = refinement.budget();
 
   budget.begin_stage("seeds");
-  refinement.insert_seeds();  // step 1
+  refinement.start();  // step 1
   const auto repair_surface = [&] {
     budget.begin_stage("topology");
     if (refinement.repair()) return true;  // step 5
@@ -28,16 +29,18 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
     return refinement.repair_folds(options.min_fold_degrees);
   };
   do {
-    budget.begin_stage("surface");
-    refinement.refine();  // steps 2 and 3, Quality
-  } while (repair_surface());
+    do {
+      budget.begin_stage("surface");
+      refinement.refine();  // steps 2 to 4, Quality
+    } while (repair_surface());
+  } while (refinement.delete_persistent_vertex() || refinement.smooth());  // step 6, Smooth (14.4)
   budget.begin_stage("interior");
   refinement.fill_interior(options.tets);  // not in the book: most of what step 7 would insert, at once
   refinement.watch_tets(options.tets);
   do {
     budget.begin_stage("tets");
-    refinement.refine();  // step 7, returning to steps 2 and 3 after each surface insertion
-  } while (repair_surface());
+    refinement.refine();  // step 7, returning to steps 2 to 4 after each surface insertion
+  } while (repair_surface() || refinement.smooth());
   budget.end_stage();
 
   refinement.report_unmet();

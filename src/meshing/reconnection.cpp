@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "delaunay/predicates.h"
+#include "meshing/roughness_guard.h"
 
 namespace delvox {
 namespace {
@@ -60,6 +61,9 @@ bool Reconnection::flip_boundary(std::uint32_t a, std::uint32_t b, Change& chang
   const Point3 &at_a = mesh_.point(a), &at_b = mesh_.point(b), &p = mesh_.point(first), &q = mesh_.point(last);
   if (!surface_.allows(p, at_b, q) || !surface_.allows(p, q, at_a)) return false;
   change.new_triangles = {{first, b, last}, {first, last, a}};
+  if (RoughnessGuard(mesh_, surface_.max_roughness_degrees()).too_rough(change.new_triangles, change.old_triangles)) {
+    return false;
+  }
   // At a convex edge the new triangles lie within the tets that were there.
   if (orientation(at_a, at_b, p, q) > 0) return true;
   return !guard_.crosses(change.new_triangles[0], change.old_triangles) &&

@@ -3,14 +3,17 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "delaunay/restricted_delaunay.h"
 #include "delvox/core/run.h"
 #include "delvox/meshing/criteria.h"
+#include "delvox/meshing/variant.h"
 #include "delvox/oracle/oracle.h"
 #include "meshing/deep_lattice.h"
 #include "meshing/landmark_watch.h"
+#include "meshing/persistent_triangle.h"
 #include "meshing/pieces.h"
 #include "meshing/refinement_lane.h"
 #include "meshing/repair_effort.h"
@@ -27,17 +30,28 @@ struct Fold;
 /// entries at a time, spread over the mesh, by as many threads as there are; what comes out does not depend on these.
 class Refinement {
  public:
-  Refinement(const Oracle& oracle, const SurfaceCriteria& surface, const RunControl& control, RunReport& report);
+  Refinement(const Oracle& oracle, const SurfaceCriteria& surface, const RunControl& control, const Variant& variant,
+             RunReport& report);
 
-  /// Step 1: a sample of every component to start from. Throws NothingToMesh if there is none.
-  void insert_seeds();
+  /// Step 1: seeds on every component, or a persistent triangle on each. Throws NothingToMesh if there is no surface.
+  void start();
 
-  /// Works the queues until nothing waits, or the budget is used up. Steps 2 and 3 of DelTetSurf with Quality and the
-  /// deviation bound: removes interior vertices from the surface, and splits restricted triangles that are too large or
-  /// too skinny. Step 7, once tetrahedra are watched and while no triangle waits: splits those that break a criterion.
+  /// Works the queues until nothing waits, or the budget is used up. Steps 2 to 4 of DelTetSurf with Quality and the
+  /// deviation bound: removes interior vertices from the surface, and splits restricted triangles that are too large, too
+  /// skinny, or have one label on both sides. Step 7, once tetrahedra are watched and while no triangle waits: splits those that break a criterion.
   void refine();
-  /// Step 5, then landmarks; neither once step 5 has turned out to be hopeless. True if anything was inserted.
-  bool repair() { return !effort_.hopeless() && (repair_topology() || repair_landmarks()); }
+  /// If there is no triangle to refine, though the surface is there: inserts what makes one, for each component if it
+  /// has a persistent triangle. True if anything was inserted.
+  bool mend_inadequate();
+  /// Step 5, then landmarks; neither once step 5 has turned out to be hopeless. Before that, mend_inadequate().
+  /// True if anything was inserted.
+  bool repair() { return mend_inadequate() || (!effort_.hopeless() && (repair_topology() || repair_landmarks())); }
+  /// Step 4 of DelSurf, step 6 of DelTetSurf: one vertex of each persistent triangle that has more than one; once none
+  /// has, Quality begins. False if there was nothing left to do.
+  bool delete_persistent_vertex();
+  /// Smooth (book, 14.4): splits triangles at edges that are too rough, returning to step 2 after each insertion. True
+  /// if anything was inserted: step 3 must look again.
+  bool smooth();
   /// Not in the book: one insertion for each fold of the surface that is sharper than the bound, until its balls are
   /// the smallest; none once step 5 has turned out to be hopeless. True if anything was inserted.
   bool repair_folds(double min_fold_degrees);
@@ -71,7 +85,15 @@ class Refinement {
   };
   /// A matter of the mesh alone, never of the number of threads.
   static constexpr std::size_t kLanes = 8;
-  using Verdict = SurfaceVerdict;
+  /// kTwoFaced: faces inside or outside with both sides, and its ball is too small to be split.
+  enum class Verdict { kGood, kSplit, kTooDeviant, kTwoFaced };
+  /// Of one component; vertices that are not there are kNone.
+  struct PersistentTriangle {
+    std::vector<Point3> seeds;  ///< of the component
+    std::array<Point3, 3> points;
+    std::array<VertexId, 3> vertices{kNone, kNone, kNone};
+    int helped = 0;  ///< how often refinement was stuck without
+  };
 
   // Lanes (refinement_lanes.cpp)
   static bool enough_for_lanes(std::size_t waiting);
@@ -94,8 +116,11 @@ class Refinement {
   void enqueue_created() { enqueue(delaunay_.created(), queues_); }
   bool has_interior_vertex(FacetId facet) const;
   void remove_interior_vertex_of(FacetId facet);
+  void remove_vertex(VertexId vertex);
+  bool may_be_restricted(FacetId facet) const;
+  std::optional<SurfaceBall> find_ball(FacetId facet, const Oracle& oracle) const;
   Verdict judge(FacetId facet, const SurfaceBall& ball) const;
-  bool insert_surface_point(const Point3& p, CellId hint);
+  std::optional<VertexId> insert_surface_point(const Point3& p, CellId hint);
   void mark_dirty(FacetId facet);
   void mark_dirty(VertexId vertex);
   bool repair_umbrella(VertexId vertex);
@@ -112,6 +137,24 @@ class Refinement {
 
   // Folds (fold_repair.cpp)
   bool split_fold(const Fold& fold);
+
+  // Persistent triangles, and what else keeps refinement from being stuck (persistent_start.cpp)
+  static bool stays(const PersistentTriangle& triangle);
+  bool shapes_matter() const { return persistent_.empty() || persistent_gone_; }
+  void insert_persistent_triangles(const Seeds& seeds);
+  bool choose_persistent(PersistentTriangle& triangle);
+  void insert_persistent(PersistentTriangle& triangle);
+  bool reinsert(PersistentTriangle& triangle);
+  bool replace(PersistentTriangle& triangle);
+  bool has_triangle(VertexId vertex) const;
+  bool has_any_triangle() const;
+  std::vector<VertexId> surface_vertices() const;
+  bool split_largest_ball_at(std::span<const VertexId> vertices);
+
+  // Smooth (smooth.cpp)
+  bool wants_smooth() const { return surface_.max_roughness_degrees < 180 && !effort_.hopeless(); }
+  std::optional<FacetId> facet_to_smooth(VertexId vertex) const;
+  void report_roughness();
 
   // Landmarks (landmark_repair.cpp)
   std::vector<LandmarkWatch::Due> find_misplaced(const std::vector<LandmarkWatch::Due>& due);
@@ -148,17 +191,21 @@ class Refinement {
   // Tetrahedra (tet_refinement.cpp)
   bool bad(CellId cell) const;
   void look_at_tet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
-  bool find_encroached_ball(const Star& star, SurfaceBall& largest) const;
+  bool find_encroached_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const;
   bool find_new_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const;
 
   const Oracle& oracle_;
   SurfaceCriteria surface_;
+  Variant variant_;
   const TetCriteria* tet_criteria_ = nullptr;
   RunReport& report_;
   RunBudget budget_;
   RestrictedDelaunay delaunay_;
   std::optional<DeepLattice> deep_;
 
+  RandomStream random_;
+  std::vector<PersistentTriangle> persistent_;
+  bool persistent_gone_ = false;
   RefinementQueues queues_;
   std::array<RefinementLane, kLanes> lanes_;
   std::vector<VertexId> dirty_;
@@ -174,7 +221,9 @@ class Refinement {
   std::optional<SurfaceTopology> expected_topology_;
   std::size_t vertices_at_first_look_ = 0, closer_insertions_ = 0;
   RepairEffort effort_;
+  std::vector<VertexId> since_smooth_;  // vertices whose umbrella has changed since Smooth looked at it
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
+  std::vector<RefinementQueues::WaitingFacet> two_faced_;  // given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
   Point3 deviant_place_, stuck_place_, lost_place_;
 };

@@ -57,6 +57,7 @@ struct RefinementLane {
 
   // For Refinement to collect.
   RefinementQueues aside;  ///< what can only be treated with no other lane beside
+  std::vector<RefinementQueues::WaitingFacet> two_faced;
   std::vector<VertexId> dirty;
   std::vector<Change> changes;
   std::size_t surface_insertions = 0, interior_insertions = 0, too_deviant = 0, stuck = 0;

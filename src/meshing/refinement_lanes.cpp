@@ -156,6 +156,8 @@ void Refinement::collect(RefinementLane& lane) {
   too_deviant_ += std::exchange(lane.too_deviant, 0);
   if (lane.stuck > 0) stuck_place_ = lane.stuck_place;
   stuck_ += std::exchange(lane.stuck, 0);
+  two_faced_.insert(two_faced_.end(), lane.two_faced.begin(), lane.two_faced.end());
+  lane.two_faced.clear();
   lane.dirty.clear();
   lane.changes.clear();
   delaunay_.clear_out(lane.lane);
@@ -198,7 +200,10 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
   const auto waiting = queues.facets[queues.next_facet];
   const FacetId facet = waiting.facet;
   const bool may_change = alone && lane.judged.empty();
-  if (!delaunay_.alive(facet.cell, waiting.stamp) || !delaunay_.bipolar(facet)) {
+  const bool alive = delaunay_.alive(facet.cell, waiting.stamp) && may_be_restricted(facet);
+  const SurfaceBall* const known = alive ? delaunay_.ball(facet) : nullptr;
+  const auto ball = known != nullptr ? std::optional(*known) : alive ? find_ball(facet, *worker.oracle) : std::nullopt;
+  if (!ball) {
     queues.pop_facet();
     return true;
   }
@@ -208,16 +213,19 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
     alone ? remove_interior_vertex_of(facet) : lane.aside.facets.push_back(waiting);
     return true;
   }
-  const SurfaceBall* const known = delaunay_.ball(facet);
-  const SurfaceBall ball = known != nullptr ? *known : delaunay_.find_ball(facet, *worker.oracle);
-  const Verdict verdict = judge(facet, ball);
+  const Verdict verdict = judge(facet, *ball);
+  if (verdict == Verdict::kTwoFaced) {
+    lane.two_faced.push_back(waiting);
+    queues.pop_facet();
+    return true;
+  }
   if (verdict != Verdict::kSplit) {
-    if (known == nullptr) lane.judged.push_back({waiting, ball, verdict == Verdict::kTooDeviant});
+    if (known == nullptr) lane.judged.push_back({waiting, *ball, verdict == Verdict::kTooDeviant});
     queues.pop_facet();
     return true;
   }
   Star& star = lane.lane.star;
-  delaunay_.evaluate(ball.center, facet.cell, worker, star);
+  delaunay_.evaluate(ball->center, facet.cell, worker, star);
   if (delaunay_.disturbs_aside(star.zone)) {
     if (may_change) insert_deep();
     if (alone) return may_change;
@@ -227,8 +235,8 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
   }
   if (star.duplicate) {
     ++lane.stuck;
-    lane.stuck_place = ball.center;
-    if (known == nullptr) lane.judged.push_back({waiting, ball, false});
+    lane.stuck_place = ball->center;
+    if (known == nullptr && delaunay_.bipolar(facet)) lane.judged.push_back({waiting, *ball, false});
     queues.pop_facet();
     return true;
   }
@@ -282,10 +290,16 @@ void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
 void Refinement::judge_new(RefinementLane& lane, RefinementQueues& queues, std::size_t first) {
   const Oracle& oracle = *delaunay_.worker().oracle;
   const auto is_done = [&](const RefinementQueues::WaitingFacet& waiting) {
-    if (has_interior_vertex(waiting.facet) || delaunay_.ball(waiting.facet) != nullptr) return false;
-    const SurfaceBall ball = delaunay_.find_ball(waiting.facet, oracle);
-    const Verdict verdict = judge(waiting.facet, ball);
-    keep(lane, waiting.facet, ball, verdict == Verdict::kTooDeviant);
+    if (delaunay_.ball(waiting.facet) != nullptr) return false;
+    const auto ball = find_ball(waiting.facet, oracle);
+    if (!ball) return true;
+    if (has_interior_vertex(waiting.facet)) return false;
+    const Verdict verdict = judge(waiting.facet, *ball);
+    if (verdict == Verdict::kTwoFaced) {
+      lane.two_faced.push_back(waiting);
+      return true;
+    }
+    keep(lane, waiting.facet, *ball, verdict == Verdict::kTooDeviant);
     return verdict != Verdict::kSplit;
   };
   auto& facets = queues.facets;

@@ -131,6 +131,7 @@ SliverReport remove_slivers(TetMesh& mesh, const Oracle& oracle, const RemoveSli
   budget.begin_stage("slivers");
   SurfaceCriteria surface = options.surface;
   if (!mesh.info.promises.max_deviation) surface.max_deviation = std::numeric_limits<double>::infinity();
+  if (!mesh.info.promises.max_roughness_degrees) surface.max_roughness_degrees = 180;
   if (mesh.boundary.empty()) mesh.boundary = boundary_of(mesh.tets);
   const TetLimits limits(options.min_dihedral_degrees, options.tets);
   SliverReport result;

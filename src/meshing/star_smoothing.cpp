@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "meshing/roughness_guard.h"
+
 namespace delvox {
 namespace {
 
@@ -138,6 +140,9 @@ bool StarSmoothing::triangles_allow(const Point3& place) {
     if (!surface_.allows(place, side.a, side.b)) return false;
   }
   const auto fan = mesh_.fan(vertex_);
+  std::vector<Triangle> triangles;
+  for (std::uint32_t t : fan) triangles.push_back(mesh_.triangle(t));
+  if (RoughnessGuard(mesh_, surface_.max_roughness_degrees()).too_rough(triangles, vertex_, place, fan)) return false;
   return std::none_of(fan.begin(), fan.end(),
                       [&](std::uint32_t t) { return guard_.crosses(mesh_.triangle(t), vertex_, place, fan); });
 }

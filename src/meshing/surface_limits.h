@@ -25,6 +25,7 @@ class SurfaceLimits {
   /// of p where `label` is left outward or entered inward; at most `reach` away.
   std::optional<Point3> nearest(const Point3& p, const Vector3& outward, double reach, Label label) const;
   bool inside(const Point3& p, Label label) const { return oracle_.label(p) == label; }
+  double max_roughness_degrees() const { return criteria_.max_roughness_degrees; }
   double largest_size() const { return criteria_.size.maximum(); }
 
  private:

@@ -8,30 +8,19 @@
 namespace delvox {
 
 Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, const RunControl& control,
-                       RunReport& report)
+                       const Variant& variant, RunReport& report)
     : oracle_(oracle),
       surface_(surface),
+      variant_(variant),
       report_(report),
       budget_(control, report),
       delaunay_(oracle),
+      random_(variant.seed),
       effort_(surface.thin_ball_radius) {
   // Balls that are mere rounding errors of the oracle's points would be split without end.
   constexpr double kRoundingError = 1e-7;
   surface_.min_ball_radius = std::max(surface_.min_ball_radius, kRoundingError * oracle.bounds().diagonal());
-}
-
-void Refinement::insert_seeds() {
-  // Cancelling ends it; a limit does not: fewer seeds would leave components without any.
-  const auto go_on = [this] {
-    budget_.go_on(vertex_count(), 0);
-    return true;
-  };
-  const Seeds seeds = oracle_.seeds(surface_.size, go_on);
-  if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
-  report_.components = seeds.components;
-  watch_ = LandmarkWatch(oracle_.landmarks(surface_.size, go_on));
-  delaunay_.insert_seeds(seeds.points, go_on);
-  enqueue_created();
+  surface_.min_smooth_radius = std::max(surface_.min_smooth_radius, surface_.min_ball_radius);
 }
 
 void Refinement::enqueue(const std::vector<CellId>& created, RefinementQueues& queues) const {
@@ -42,10 +31,12 @@ void Refinement::enqueue(const std::vector<CellId>& created, RefinementQueues& q
     if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) queues.tets.push_back({cell, stamp});
     for (int i = 0; i < 4; ++i) {
       const FacetId facet{cell, i};
-      if (!delaunay_.bipolar(facet)) continue;
-      // A ball that outlives its cell may be one that is to be split, and waited with that.
+      if (!may_be_restricted(facet)) continue;
+      // A ball that outlives its cell may be one that is to be split, and waited with that, of tets or once Quality
+      // began.
       const SurfaceBall* ball = delaunay_.ball(facet);
-      if (ball != nullptr && (tet_criteria_ == nullptr || judge(facet, *ball) != Verdict::kSplit)) continue;
+      const bool may_wait = tet_criteria_ != nullptr || !persistent_.empty();
+      if (ball != nullptr && (!may_wait || judge(facet, *ball) != Verdict::kSplit)) continue;
       const CellId neighbor = delaunay_.neighbors(cell)[i];
       const bool met_from_there = neighbor < cell && delaunay_.stamp(neighbor) >= oldest;
       if (!met_from_there) queues.facets.push_back({facet, stamp});
@@ -64,28 +55,74 @@ void Refinement::remove_interior_vertex_of(FacetId facet) {
   const auto vertices = delaunay_.vertices(facet);
   const VertexId vertex = *std::find_if(vertices.begin(), vertices.end(),
                                         [this](VertexId v) { return delaunay_.kind(v) == VertexKind::kInterior; });
+  remove_vertex(vertex);
+}
+
+void Refinement::remove_vertex(VertexId vertex) {
   if (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep();
+  const bool on_surface = delaunay_.kind(vertex) == VertexKind::kSurface;
   delaunay_.remove(vertex);
   note_new_facets();
   for (CellId cell : delaunay_.created()) {
     const auto& corners = delaunay_.vertices(cell);
     if (edges_looked_at_) since_edges_.insert(since_edges_.end(), corners.begin(), corners.end());
+    for (VertexId corner : corners) {
+      if (on_surface && delaunay_.kind(corner) == VertexKind::kSurface) mark_dirty(corner);
+    }
   }
   ++report_.removals;
   enqueue_created();
 }
 
-Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) const {
-  const auto v = delaunay_.vertices(facet);
-  return delvox::judge(surface_, delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), ball);
+/// Whether the facet's dual edge must be looked at to know if the facet is restricted.
+bool Refinement::may_be_restricted(FacetId facet) const {
+  return delaunay_.bipolar(facet) || (variant_.restricted == Restricted::kAll && delaunay_.proper(facet));
 }
 
-bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
+/// The surface ball by which to judge a facet: the one that exceeds the size by most, if any does, else the largest.
+/// None if the facet is not restricted.
+std::optional<SurfaceBall> Refinement::find_ball(FacetId facet, const Oracle& oracle) const {
+  const bool bipolar = delaunay_.bipolar(facet);
+  if (bipolar && variant_.restricted == Restricted::kBipolar) return delaunay_.find_ball(facet, oracle);
+  if (!may_be_restricted(facet)) return std::nullopt;
+  const std::vector<Point3> crossings = delaunay_.dual_crossings(facet, oracle);
+  if (crossings.empty()) return bipolar ? std::optional(delaunay_.find_ball(facet, oracle)) : std::nullopt;
+  const Point3& corner = delaunay_.point(delaunay_.vertices(facet)[0]);
+  SurfaceBall largest, excess;
+  double most = 1;
+  for (const Point3& center : crossings) {
+    const SurfaceBall ball{center, squared_distance(center, corner), crossings.size() > 1};
+    const double size = surface_.size(center), ratio = ball.squared_radius / (size * size);
+    if (ball.squared_radius > largest.squared_radius) largest = ball;
+    if (ratio > most) most = ratio, excess = ball;
+  }
+  return most > 1 ? excess : largest;
+}
+
+/// Size, Quality and deviation, and of Del|Sigma step 4 of DelTetSurf: is the facet's ball to be split?
+Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) const {
+  const bool two_faced = !delaunay_.bipolar(facet);
+  if (two_faced || !shapes_matter()) {
+    const double size = surface_.size(ball.center), left = surface_.min_smooth_radius;
+    if (ball.squared_radius > size * size) return Verdict::kSplit;
+    if (!two_faced) return Verdict::kGood;
+    return ball.squared_radius <= left * left ? Verdict::kTwoFaced : Verdict::kSplit;
+  }
+  const auto v = delaunay_.vertices(facet);
+  switch (delvox::judge(surface_, delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), ball)) {
+    case SurfaceVerdict::kGood: return Verdict::kGood;
+    case SurfaceVerdict::kSplit: return Verdict::kSplit;
+    case SurfaceVerdict::kTooDeviant: break;
+  }
+  return Verdict::kTooDeviant;
+}
+
+std::optional<VertexId> Refinement::insert_surface_point(const Point3& p, CellId hint) {
   const Star& star = evaluate(p, hint);
   if (star.duplicate) {
     ++stuck_;
     stuck_place_ = p;
-    return false;
+    return std::nullopt;
   }
   for (CellId cell : star.zone) {
     if (!delaunay_.has_balls(cell)) continue;
@@ -97,7 +134,7 @@ bool Refinement::insert_surface_point(const Point3& p, CellId hint) {
   const VertexId inserted = delaunay_.commit(VertexKind::kSurface);
   if (!watch_.empty()) note_change(changing, inserted);
   enqueue_created();
-  return true;
+  return inserted;
 }
 
 void Refinement::mark_dirty(FacetId facet) {
@@ -112,11 +149,13 @@ void Refinement::mark_dirty(VertexId vertex) {
 }
 
 bool Refinement::repair_topology() {
-  if (!surface_.topo_disk) return false;
   bool inserted = false;
   std::vector<VertexId> round;
   round.swap(dirty_);
   for (VertexId vertex : round) is_dirty_[vertex] = 0;
+  std::erase_if(round, [this](VertexId vertex) { return delaunay_.kind(vertex) != VertexKind::kSurface; });
+  if (wants_smooth()) since_smooth_.insert(since_smooth_.end(), round.begin(), round.end());
+  if (!surface_.topo_disk) return false;
   for (VertexId vertex : without_disk(delaunay_, round)) {
     if (!budget_left()) return inserted;
     inserted |= repair_umbrella(vertex);
@@ -174,6 +213,17 @@ void Refinement::report_unmet() {
            : "the triangles at a vertex form no disk at the smallest ball radius",
        true);
   tell("deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false);
+  report_roughness();
+  std::erase_if(two_faced_, [this](const auto& left) {
+    return !delaunay_.alive(left.facet.cell, left.stamp) || delaunay_.bipolar(left.facet);
+  });
+  tell("two-faced triangles", two_faced_.size(),
+       two_faced_.empty() ? where : delaunay_.point(delaunay_.vertices(two_faced_[0].facet)[0]),
+       "a Voronoi edge leaves its side for less than the smallest ball radius", false);
+  for (const PersistentTriangle& triangle : persistent_) {
+    tell("persistent triangle", stays(triangle), triangle.points[0], "refinement was stuck without its vertices",
+         false);
+  }
   if (expected_topology_ && broken == 0 && topology() != *expected_topology_) {
     tell("topology", 1, delaunay_.point(Delaunay3::kCorners),
          "components or Euler number differ from the voxels': some neck or gap is too thin to be found", false);

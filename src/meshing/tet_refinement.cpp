@@ -51,7 +51,7 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
   SurfaceBall ball;
   if (!delaunay_.disturbs_aside(star.zone) && !star.duplicate &&
-      (find_encroached_ball(star, ball) || find_new_ball(star, *worker.oracle, ball))) {
+      (find_encroached_ball(star, *worker.oracle, ball) || find_new_ball(star, *worker.oracle, ball))) {
     kind = VertexKind::kSurface;
     delaunay_.evaluate(ball.center, star.zone.front(), worker, star);
   }
@@ -70,39 +70,56 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
 }
 
 /// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z.
-bool Refinement::find_encroached_ball(const Star& star, SurfaceBall& largest) const {
+bool Refinement::find_encroached_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const {
+  const auto consider = [&](const Point3& center, double squared_radius) {
+    if (squared_radius <= largest.squared_radius || squared_distance(center, star.apex) >= squared_radius) return;
+    largest = {center, squared_radius};
+  };
   for (CellId cell : star.zone) {
     if (!delaunay_.has_balls(cell)) continue;
     for (int i = 0; i < 4; ++i) {
       const SurfaceBall* ball = delaunay_.ball({cell, i});
-      if (ball == nullptr || ball->squared_radius <= largest.squared_radius) continue;
-      if (squared_distance(ball->center, star.apex) < ball->squared_radius) largest = *ball;
+      if (ball == nullptr) continue;
+      consider(ball->center, ball->squared_radius);
+      if (!ball->several) continue;
+      const Point3& corner = delaunay_.point(delaunay_.vertices(FacetId{cell, i})[0]);
+      for (const Point3& center : delaunay_.dual_crossings({cell, i}, oracle)) {
+        consider(center, squared_distance(center, corner));
+      }
     }
   }
   return largest.squared_radius > 0;
 }
 
+/// Of the restricted triangles that the star would have and the mesh has not. Facets on the boundary of its zone keep a
+/// part of their dual edges, which may be bipolar where the whole was not.
 bool Refinement::find_new_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const {
-  const auto consider = [&](const Circumsphere& a, Label label_a, const Circumsphere& b, Label label_b,
-                            const Point3& corner) {
-    const Point3 center = RestrictedDelaunay::dual_crossing(a.center, label_a, b.center, label_b, oracle);
+  const auto consider = [&](const Point3& center, const Point3& corner) {
     const double squared_radius = squared_distance(center, corner);
     if (squared_radius > largest.squared_radius) largest = {center, squared_radius};
   };
-  bool uniform = true;
+  bool uniform = variant_.restricted == Restricted::kBipolar;
   for (const Star::Tet& tet : star.tets) {
     uniform &= tet.label == star.tets.front().label;
     const CellId outer = tet.outer.cell;
     if (delaunay_.label(outer) == tet.label || delaunay_.bipolar(tet.outer)) continue;
-    consider(delaunay_.sphere(outer), delaunay_.label(outer), tet.sphere, tet.label, delaunay_.point(tet.vertices[0]));
+    consider(RestrictedDelaunay::dual_crossing(delaunay_.sphere(outer).center, delaunay_.label(outer),
+                                               tet.sphere.center, tet.label, oracle),
+             delaunay_.point(tet.vertices[0]));
   }
-  if (!uniform) {
-    for (std::uint32_t t = 0; t < star.tets.size(); ++t) {
-      const Star::Tet& a = star.tets[t];
-      for (std::uint32_t other : a.beside) {
-        const Star::Tet& b = star.tets[other];
-        if (t < other && a.label != b.label) consider(a.sphere, a.label, b.sphere, b.label, star.apex);
+  if (uniform) return largest.squared_radius > 0;
+  for (std::uint32_t t = 0; t < star.tets.size(); ++t) {
+    const Star::Tet& a = star.tets[t];
+    for (int i = 0; i < 3; ++i) {
+      const Star::Tet& b = star.tets[a.beside[i]];
+      if (a.beside[i] <= t) continue;
+      if (a.label != b.label) {
+        consider(RestrictedDelaunay::dual_crossing(a.sphere.center, a.label, b.sphere.center, b.label, oracle),
+                 star.apex);
       }
+      const bool proper = std::min(a.vertices[(i + 1) % 3], a.vertices[(i + 2) % 3]) >= Delaunay3::kCorners;
+      if (variant_.restricted == Restricted::kBipolar || !proper) continue;
+      for (const Point3& center : oracle.intersect_all(a.sphere.center, b.sphere.center)) consider(center, star.apex);
     }
   }
   return largest.squared_radius > 0;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "meshing/roughness_guard.h"
+
 namespace delvox {
 namespace {
 
@@ -236,6 +238,8 @@ std::optional<Point3> TrialRepair::split(const Edge& edge, Change& change, doubl
       change.new_triangles.push_back(half);
     }
   }
+  const RoughnessGuard roughness(mesh_, surface_.max_roughness_degrees());
+  if (roughness.too_rough(change.new_triangles, vertex, *place, change.old_triangles)) return std::nullopt;
   for (std::uint32_t t : mesh_.star(edge[0])) {
     if (!has_corner(mesh_.tet(t), edge[1])) continue;
     if (mesh_.region(t) != region) return std::nullopt;

@@ -6,6 +6,7 @@
 #include "delvox/oracle/implicit_oracle.h"
 #include "oracle/border_search.h"
 #include "oracle/formula_algebra.h"
+#include "oracle/formula_crossings.h"
 
 namespace delvox {
 namespace {
@@ -63,6 +64,9 @@ std::unique_ptr<SmoothOracle> make_formula_oracle(const Formula& formula, const 
   ImplicitFunction function;
   function.value = [formula](const Point3& p) { return formula.value(p); };
   function.gradient = [formula](const Point3& p) { return formula.gradient(p); };
+  function.crossings = [formula, resolution](const Point3& a, const Point3& b) {
+    return formula_crossings(formula.code_->function(), a, b, 0.25 * resolution);
+  };
   function.box = box;
   function.resolution = resolution;
   check_function(function);

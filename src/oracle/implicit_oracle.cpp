@@ -6,6 +6,7 @@
 #include "delvox/core/errors.h"
 #include "oracle/bracketed_root.h"
 #include "oracle/brick_field.h"
+#include "oracle/clip_segment.h"
 #include "oracle/domain_patches.h"
 #include "oracle/voxel_seeds.h"
 
@@ -65,6 +66,12 @@ class ImplicitOracle final : public SmoothOracle {
 
   std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const override {
     std::vector<Point3> result;
+    if (function_.crossings) {
+      Point3 near = a, far = b;
+      if (!clip_segment(function_.box, near, far)) return result;
+      for (double t : function_.crossings(near, far)) result.push_back(near + t * (far - near));
+      return result;
+    }
     const int steps = static_cast<int>(std::min(1e6, std::ceil(distance(a, b) / (0.25 * function_.resolution)))) + 1;
     Point3 before = a;
     for (int step = 1; step <= steps; ++step) {
@@ -79,14 +86,16 @@ class ImplicitOracle final : public SmoothOracle {
     const Seeds rough = voxel_seeds(*field_, grid_to_world_, size, go_on);
     Seeds seeds;
     seeds.components = rough.components;
-    for (const Point3& u : rough.points) {
+    for (std::size_t i = 0; i < rough.points.size(); ++i) {
       // The sampled function's surface lies within a grid step of the true one: look for that along the gradient.
-      const Point3 p = grid_to_world_(u);
+      const Point3 p = grid_to_world_(rough.points[i]);
       const Vector3 direction = gradient(p);
       const double length = norm(direction);
       if (!(length > 0)) continue;
       const Vector3 step = (function_.resolution / length) * direction;
-      if (inside(p - step) != inside(p + step)) seeds.points.push_back(polish(p - step, p + step));
+      if (inside(p - step) == inside(p + step)) continue;
+      seeds.points.push_back(polish(p - step, p + step));
+      seeds.component_of.push_back(rough.component_of[i]);
     }
     return seeds;
   }

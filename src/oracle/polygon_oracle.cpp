@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "oracle/clip_segment.h"
 #include "oracle/polygon_blocks.h"
 #include "oracle/polygon_seeds.h"
 #include "oracle/polygon_surface.h"
@@ -41,7 +42,7 @@ class PolygonOracle final : public Oracle {
 
   std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const override {
     Point3 near = a, far = b;
-    if (!clip(near, far)) return {};
+    if (!clip_segment(polygons_->bounds, near, far)) return {};
     std::vector<Point3> result;
     for (const PolygonTree::Crossing& crossing : polygons_->tree.crossings(near, far)) result.push_back(crossing.point);
     return result;
@@ -62,31 +63,6 @@ class PolygonOracle final : public Oracle {
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<PolygonOracle>(polygons_); }
 
  private:
-  /// Cuts ab to the bounds; false if nothing is left. An end beyond them is reckoned from the other, so that one far away
-  /// costs no digits.
-  bool clip(Point3& a, Point3& b) const {
-    const Box3& box = polygons_->bounds;
-    const bool a_inside = box.contains(a), b_inside = box.contains(b);
-    if (a_inside && b_inside) return true;
-    const Point3 from = b_inside ? b : a, to = b_inside ? a : b;
-    const Vector3 step = to - from;
-    double enter = 0, leave = 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (step[axis] == 0) {
-        if (from[axis] < box.min[axis] || from[axis] > box.max[axis]) return false;
-        continue;
-      }
-      double first = (box.min[axis] - from[axis]) / step[axis], last = (box.max[axis] - from[axis]) / step[axis];
-      if (first > last) std::swap(first, last);
-      enter = std::max(enter, first);
-      leave = std::min(leave, last);
-    }
-    if (!(enter <= leave)) return false;
-    (b_inside ? a : b) = from + leave * step;
-    if (!a_inside && !b_inside) a = from + enter * step;
-    return true;
-  }
-
   std::shared_ptr<const Polygons> polygons_;
 };
 

@@ -53,7 +53,8 @@ class SeedMaker {
   void for_each_triangle(const Visit& visit) {
     for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
       if (stopped_ || (stopped_ = !go_on_())) return;
-      visit(t, extents_[surface_.component_of[t]]);
+      component_ = surface_.component_of[t];
+      visit(t, extents_[component_]);
     }
   }
 
@@ -62,7 +63,9 @@ class SeedMaker {
   }
 
   void add(const Point3& p, double extent) {
-    if (thinner_.keep(p, spacing_at(p, extent))) seeds_.points.push_back(p);
+    if (!thinner_.keep(p, spacing_at(p, extent))) return;
+    seeds_.points.push_back(p);
+    seeds_.component_of.push_back(component_);
   }
 
   /// Of a triangle with edges within the spacing no point is far from a vertex.
@@ -108,6 +111,7 @@ class SeedMaker {
   std::vector<double> extents_;  // of each component: the diagonal of its box
   PoissonThinner thinner_;
   bool stopped_ = false;
+  std::uint32_t component_ = 0;  // of the triangle being visited
   Seeds seeds_;
 };
 

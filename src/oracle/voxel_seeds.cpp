@@ -35,6 +35,7 @@ std::uint64_t hash_edge(const CrossedEdge& edge, std::uint64_t salt) {
 /// A point that becomes a seed unless thinning refuses it.
 struct Candidate {
   CrossedEdge edge;
+  std::uint32_t component;
   Point3 point;             // grid coordinates
   double spacing = 0;       // in world; 0: kept whatever is near
   double late_jitter = 0;   // once it is kept, moved off the edge by up to this; 0 if it was already
@@ -110,18 +111,17 @@ class SeedMaker {
     std::vector<Candidate> candidates;
     const std::uint32_t* component = found_.of_crossing.data() + chunk.first_crossing;
     for (std::size_t n = chunk.first_brick; n < chunk.end_brick; ++n) {
-      for_each_crossed_edge(field_, bricks_[n], BrickEdges(field_, bricks_[n]), [&](const CrossedEdge& edge) {
-        add_candidates(edge, found_.components[*component++], candidates);
-      });
+      for_each_crossed_edge(field_, bricks_[n], BrickEdges(field_, bricks_[n]),
+                            [&](const CrossedEdge& edge) { add_candidates(edge, *component++, candidates); });
     }
     return candidates;
   }
 
-  void add_candidates(const CrossedEdge& edge, const SurfaceComponents::Component& component,
-                      std::vector<Candidate>& out) const {
+  void add_candidates(const CrossedEdge& edge, std::uint32_t number, std::vector<Candidate>& out) const {
+    const SurfaceComponents::Component& component = found_.components[number];
     const double extent = diagonal(component);
     if (component.crossings <= kFewCrossings) {
-      out.push_back({edge, jittered(edge, 0, std::min(0.5, 0.05 * extent / voxel_))});
+      out.push_back({edge, number, jittered(edge, 0, std::min(0.5, 0.05 * extent / voxel_))});
       return;
     }
     // Most are turned away by their hash, if the spacing is wide, before anything is computed.
@@ -133,11 +133,12 @@ class SeedMaker {
     if (spacing > 2 * voxel_) {
       // Jittered after thinning: few are kept. Moved by more than a small part of their spacing, some would come so
       // near to each other that angles ask for many more vertices around them.
-      out.push_back({edge, crossing, spacing, std::min(0.5, 0.07 * spacing / voxel_)});
+      out.push_back({edge, number, crossing, spacing, std::min(0.5, 0.07 * spacing / voxel_)});
       return;
     }
     const double reach = spacing < voxel_ ? 0.5 : 0.25 * spacing / voxel_;
-    for (int copy = 0; copy < copies_at(spacing); ++copy) out.push_back({edge, jittered(edge, copy, reach), spacing});
+    for (int copy = 0; copy < copies_at(spacing); ++copy)
+      out.push_back({edge, number, jittered(edge, copy, reach), spacing});
   }
 
   /// False if go_on said no.
@@ -146,6 +147,7 @@ class SeedMaker {
       for (const Candidate& c : candidates) {
         if (!go_on_()) return false;
         if (c.spacing > 0 && !thinner_.keep(to_world_(c.point), c.spacing)) continue;
+        seeds_.component_of.push_back(c.component);
         seeds_.points.push_back(c.late_jitter > 0 ? jittered(c.edge, 0, c.late_jitter) : c.point);
       }
     }

@@ -61,6 +61,32 @@ TEST(CheckMesh, IcosphereHoldsEverything) {
   EXPECT_NEAR(report.statistics.volume_mm3, 4188.8, 50);
 }
 
+TEST(CheckMesh, RoughnessIsMeasuredAndHeldToItsBound) {
+  const SurfaceMesh cube = boundary_surface(cube_mesh());
+  CheckReport report = check_mesh(cube);
+  EXPECT_NEAR(report.find("roughness")->measured, 90, 1e-9);
+  EXPECT_EQ(report.find("roughness")->status, CheckStatus::kNotApplicable);  // nothing was promised
+  CheckOptions options;
+  options.bounds.emplace().max_roughness_degrees = 89;
+  report = check_mesh(cube, options);
+  EXPECT_EQ(failures(report), Names{"roughness"});
+  EXPECT_EQ(report.find("roughness")->violations, 12u);  // the diagonals of its faces are flat
+  options.bounds->max_roughness_degrees = 90;
+  EXPECT_TRUE(check_mesh(cube, options).all_hold());
+  // A regular tetrahedron's dihedral angles are those of cosine 1/3.
+  const SurfaceMesh regular = tetrahedron({1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1});
+  EXPECT_NEAR(check_mesh(regular).find("roughness")->measured, 180 - std::acos(1.0 / 3) * 180 / M_PI, 1e-9);
+}
+
+TEST(CheckMesh, RoughnessIsForgivenWhatTheFormatRounds) {
+  CheckOptions options;
+  options.bounds.emplace().max_roughness_degrees = 89.9999;
+  const SurfaceMesh cube = boundary_surface(cube_mesh());
+  EXPECT_EQ(failures(cube, options), Names{"roughness"});
+  options.coordinate_error = 1e-5;
+  EXPECT_EQ(failures(cube, options), Names{});
+}
+
 TEST(CheckMesh, TorusHasGenusOne) {
   SurfaceMesh torus;
   constexpr std::uint32_t kN = 12;

@@ -29,6 +29,10 @@ std::vector<std::function<void(SurfaceCriteria&)>> bad_surface_criteria() {
   for (double value : {-0.1, kNan}) {
     bad.push_back([=](SurfaceCriteria& c) { c.min_ball_radius = value; });
     bad.push_back([=](SurfaceCriteria& c) { c.thin_ball_radius = value; });
+    bad.push_back([=](SurfaceCriteria& c) { c.min_smooth_radius = value; });
+  }
+  for (double value : {0.0, -5.0, 180.5, kNan}) {
+    bad.push_back([=](SurfaceCriteria& c) { c.max_roughness_degrees = value; });
   }
   return bad;
 }

@@ -98,7 +98,7 @@ Repaired without_slivers(const PhantomCase& c, double min_dihedral_degrees) {
   options.tets.cell_size = c.size;
   RunReport report;
   Repaired result;
-  result.mesh = deltetsurf(*oracle, {options.surface, options.tets, {}, min_fold_for(min_dihedral_degrees)}, report);
+  result.mesh = deltetsurf(*oracle, {options.surface, options.tets, {}, {}, min_fold_for(min_dihedral_degrees)}, report);
   result.slivers = remove_slivers(result.mesh, *oracle, options, report);
   test::expect_finished(report);
   return result;

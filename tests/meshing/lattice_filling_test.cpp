@@ -44,8 +44,8 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
   void SetUp() override {
     surface_.size = kSize;
     surface_.min_ball_radius = 0.1;
-    refinement_.emplace(*oracle_, surface_, control_, report_);
-    refinement_->insert_seeds();
+    refinement_.emplace(*oracle_, surface_, control_, Variant{}, report_);
+    refinement_->start();
     refine_surface();
     refinement_->fill_interior(lattice_);
     ASSERT_TRUE(refinement_->deep().has_value());

@@ -28,13 +28,13 @@ TEST_P(KeptBalls, AreThoseOfTheFacetsThatHaveThem) {
   const TetCriteria tets{2, c.size};
   const RunControl control;
   RunReport report;
-  Refinement refinement(*oracle, surface, control, report);
+  Refinement refinement(*oracle, surface, control, Variant{}, report);
   const auto refine = [&] {
     do {
       refinement.refine();
     } while (refinement.repair());
   };
-  refinement.insert_seeds();
+  refinement.start();
   refine();
   refinement.fill_interior(tets);
   refinement.watch_tets(tets);

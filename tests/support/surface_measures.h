@@ -105,6 +105,33 @@ inline double smallest_angle_degrees(const Point3& a, const Point3& b, const Poi
   return std::min({angle(a, b, c), angle(b, c, a), angle(c, a, b)});
 }
 
+/// pi less the dihedral angle, at each edge of two triangles.
+inline std::vector<double> roughnesses_degrees(const SurfaceMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Vector3> normals;  // of the triangle to the left of each half-edge
+  for (const Triangle& t : mesh.triangles) {
+    const Vector3 n = cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]);
+    for (std::size_t i = 0; i < 3; ++i) normals[{t[i], t[(i + 1) % 3]}] = n;
+  }
+  std::vector<double> result;
+  for (const auto& [edge, n] : normals) {
+    const auto back = normals.find({edge.second, edge.first});
+    if (edge.first > edge.second || back == normals.end()) continue;
+    const double cosine = dot(n, back->second) / (norm(n) * norm(back->second));
+    result.push_back(std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / 3.14159265358979323846);
+  }
+  return result;
+}
+
+inline double largest_roughness_degrees(const SurfaceMesh& mesh) {
+  const std::vector<double> all = roughnesses_degrees(mesh);
+  return *std::max_element(all.begin(), all.end());
+}
+
+inline std::size_t rougher_edges(const SurfaceMesh& mesh, double degrees) {
+  const std::vector<double> all = roughnesses_degrees(mesh);
+  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](double r) { return r > degrees; }));
+}
+
 /// In the triangle's plane.
 inline Point3 circumcenter(const Point3& a, const Point3& b, const Point3& c) {
   const Vector3 u = b - a, v = c - a, n = cross(u, v);

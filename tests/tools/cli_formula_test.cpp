@@ -48,6 +48,36 @@ TEST(CliFormula, EdgesOfMaxAreMeshedAsTheyCome) {
   EXPECT_NE(outcome.out.find("Euler number 2,"), std::string::npos) << outcome.out;
 }
 
+TEST(CliFormula, RoughnessIsBoundedPromisedAndCheckedOrToldWhereItCannotBeHad) {
+  const TemporaryFolder folder;
+  const std::string torus = "(sqrt(x^2+y^2)-1)^2+z^2-0.1";
+  for (const std::string threads : {"1", "2"}) {
+    const Outcome surface = run_on(folder, {"surface", "--implicit", torus, kBox, "--max-roughness", "10", "--threads",
+                                            threads, "-o", threads + ".vtu", "--json"});
+    EXPECT_EQ(surface.code, 0) << surface.err;
+    EXPECT_EQ(json::parse(surface.out)["mesh"]["promises"]["max_roughness_degrees"], 10);
+  }
+  EXPECT_TRUE(read_file(folder / "1.vtu") == read_file(folder / "2.vtu"));
+  const Outcome check = run_on(folder, {"check", "1.vtu", "--json"});
+  EXPECT_EQ(check.code, 0) << check.err;
+  for (const json& one : json::parse(check.out)["meshes"][0]["checks"]) {  // held to what the file carries
+    if (one["name"] != "roughness") continue;
+    EXPECT_EQ(one["status"], "passed");
+    EXPECT_EQ(one["bound"], 10);
+  }
+  EXPECT_EQ(run_on(folder, {"check", "1.vtu", "--max-roughness", "10"}).code, 0);
+  const Outcome smoother = run_on(folder, {"check", "1.vtu", "--max-roughness", "5", "--quiet"});
+  EXPECT_EQ(smoother.code, 5);
+  EXPECT_NE(smoother.err.find("roughness"), std::string::npos) << smoother.err;
+
+  const Outcome cube = run_on(folder, {"tet", "--implicit", "max(abs(x),abs(y),abs(z))-1", kBox, "--size", "0.3",
+                                       "--max-roughness", "30", "-o", "cube.vtu", "--json"});
+  EXPECT_EQ(cube.code, 0) << cube.err;
+  const json report = json::parse(cube.out);
+  EXPECT_TRUE(report["mesh"]["promises"]["max_roughness_degrees"].is_null());
+  EXPECT_NE(report["run"]["unmet"].dump().find("roughness"), std::string::npos);
+}
+
 // The library that derives formulas orders terms by addresses, which differ from run to run.
 TEST(CliFormula, RunsGiveTheSameBytes) {
   const TemporaryFolder folder;
@@ -78,6 +108,10 @@ TEST(CliFormula, WhatMakesNoSenseIsAUsageError) {
   expect_usage_error({"surface", kBox}, {"--implicit"});
   expect_usage_error({"surface"}, {"VOLUME", "--implicit"});
   expect_usage_error({"surface", "--implicit", "x^2+y^2+z^2-9", kBox}, {"border of the box", "widen"});
+  for (const std::string degrees : {"0", "-3", "181", "nan", "x"}) {
+    expect_usage_error({"surface", "--implicit", "x^2+y^2+z^2-1", kBox, "--max-roughness", degrees},
+                       {"--max-roughness"});
+  }
   for (const std::string box : {"0:1,0:1", "0:1,0:1,1:0", "0:1,0:1,0", "0:1,0:1,0:nan", "a:b,0:1,0:1"}) {
     expect_usage_error({"surface", "--implicit", "x-0.5", "--box=" + box}, {"--box", box});
   }

@@ -66,6 +66,7 @@ struct Promises {
   std::optional<double> cell_size;             ///< largest circumradius of a tet, mm
   std::optional<double> grade;                 ///< circumradius of a tet beyond `size`, per mm of depth
   std::optional<double> max_deviation;         ///< circumcentre of triangle to surface ball centre, mm
+  std::optional<double> max_roughness_degrees;  ///< largest angle between the normals of neighbouring triangles
   std::optional<double> min_dihedral_degrees;  ///< smallest dihedral angle of a tet
   friend bool operator==(const Promises&, const Promises&) = default;
 };

@@ -59,7 +59,9 @@ struct RunReport {
   std::size_t surface_insertions = 0;
   std::size_t topology_insertions = 0;
   std::size_t interior_insertions = 0;
-  std::size_t removals = 0;            ///< step 2 of DelTetSurf
+  std::size_t smooth_insertions = 0;  ///< of Smooth (book, 14.4)
+  std::size_t removals = 0;           ///< step 2 of DelTetSurf, and vertices of persistent triangles
+  std::size_t reinsertions = 0;       ///< of vertices of persistent triangles, when refinement was stuck without
 
   bool succeeded() const;
 };

@@ -11,7 +11,9 @@ struct SurfaceCriteria {
   SizeField size = 1.0;              ///< upper bound on surface Delaunay ball radii (lambda)
   double min_angle_degrees = 30;     ///< 0 to 30; 30 is radius-edge 1, the Quality step of DelSurf
   double max_deviation = std::numeric_limits<double>::infinity();  ///< circumcentre to surface ball centre
+  double max_roughness_degrees = 180;  ///< upper bound on the roughness of edges: pi less the dihedral angle; 180: none
   double min_ball_radius = 0;        ///< TopoDisk and deviation leave balls at or below this radius alone
+  double min_smooth_radius = 0;      ///< Smooth and step 4 of DelTetSurf leave balls at or below it, or the above, alone
   double thin_ball_radius = 0;       ///< TopoDisk gives up once balls below it multiply as they halve; 0: never
   bool topo_disk = true;             ///< false: skip step 3 of DelSurf; the surface need not be manifold
 };

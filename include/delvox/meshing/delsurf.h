@@ -3,6 +3,7 @@
 #include "delvox/core/mesh.h"
 #include "delvox/core/run.h"
 #include "delvox/meshing/criteria.h"
+#include "delvox/meshing/variant.h"
 #include "delvox/oracle/oracle.h"
 
 namespace delvox {
@@ -11,11 +12,17 @@ namespace delvox {
 struct DelSurfOptions {
   SurfaceCriteria surface;
   RunControl control;
+  Variant variant = {};
 };
 
-/// DelSurf (book, 14.3) with the Quality step (14.4), on bipolar edges with the lazy queue of 14.1.3: a closed
-/// 2-manifold triangulation of the oracle's surface, vertices on it. A limit or an unmet criterion is told in the
-/// report, and the mesh is what there was. Throws OptionError, NothingToMesh, Cancelled.
+/// DelSurf (book, 14.3) with Quality and Smooth (14.4): a closed 2-manifold triangulation of the oracle's surface,
+/// vertices on it. A limit or an unmet criterion is told in the report, and the mesh is what there was. Throws
+/// OptionError, NothingToMesh, Cancelled.
 SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunReport& report);
+
+/// DelSurf1 (book, 14.1): for size fields that are 1-Lipschitz and at most 0.08 of the local feature size, with which
+/// it keeps theorem 14.2. Others it cannot tell: nothing but the size is looked at, and the angle and deviation if they
+/// are bounded, not the topology. Otherwise as delsurf().
+SurfaceMesh delsurf1(const Oracle& oracle, const DelSurfOptions& options, RunReport& report);
 
 }  // namespace delvox

@@ -3,6 +3,7 @@
 #include "delvox/core/mesh.h"
 #include "delvox/core/run.h"
 #include "delvox/meshing/criteria.h"
+#include "delvox/meshing/variant.h"
 #include "delvox/oracle/oracle.h"
 
 namespace delvox {
@@ -12,15 +13,16 @@ struct DelTetSurfOptions {
   SurfaceCriteria surface;
   TetCriteria tets;
   RunControl control;
+  Variant variant = {};
   /// Where two triangles of the boundary hold a wedge of the inside sharper than this between them, the surface is
   /// refined, until it is not or the balls are the smallest: tets can be no better than the wedge that they lie in.
   /// 0 to 90; 0 leaves folds as they are.
   double min_fold_degrees = 0;
 };
 
-/// DelTetSurf (book, 14.5), the isosurface variant on the boundary of Del|O: tetrahedra of the inside, whose boundary
-/// is a closed 2-manifold with vertices on the oracle's surface. A limit or an unmet criterion is told in the report,
-/// and the mesh is what there was. Throws OptionError, NothingToMesh, Cancelled.
+/// DelTetSurf (book, 14.5), in its isosurface variant or on Del|Sigma as a whole: tetrahedra of the inside, whose
+/// boundary is a closed 2-manifold with vertices on the oracle's surface. A limit or an unmet criterion is told in the
+/// report, and the mesh is what there was. Throws OptionError, NothingToMesh, Cancelled.
 TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunReport& report);
 
 }  // namespace delvox

@@ -14,6 +14,9 @@ struct ImplicitFunction {
   Box3 box;                                        ///< the zero set lies strictly inside it
   /// Features of the surface (components, gaps) thinner than this may be missed by seeds and intersect_all, mm.
   double resolution = 0;
+  /// Where along ab, as shares of it, every change of sign lies, in order; null: looked for in steps of a quarter of
+  /// the resolution. The segment lies in the box.
+  std::function<std::vector<double>(const Point3& a, const Point3& b)> crossings = {};
 };
 
 /// Throws OptionError if the box is empty or narrower than the resolution, or if the resolution is not positive.

@@ -15,6 +15,7 @@ namespace delvox {
 /// Points on the surface to start from, at least one set per component.
 struct Seeds {
   std::vector<Point3> points;
+  std::vector<std::uint32_t> component_of;  ///< of each point, from 0
   std::size_t components = 0;
 };
 
