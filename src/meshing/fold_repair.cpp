@@ -7,6 +7,9 @@ namespace delvox {
 
 bool Refinement::repair_folds(double min_fold_degrees) {
   if (effort_.hopeless()) return false;  // rods and sheets as thin as a float step are all fold
+  // A mesh finer than the voxels follows their creases, which are all fold too, and what goes in there can part or join
+  // what it took landmarks to get right.
+  if (!watch_.empty()) return false;
   bool inserted = false;
   const std::uint32_t new_from = std::exchange(folds_from_, delaunay_.next_stamp());
   for (const Fold& fold : sharp_folds(delaunay_, min_fold_degrees, new_from)) {

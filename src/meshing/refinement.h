@@ -37,8 +37,9 @@ class Refinement {
   void start();
 
   /// Works the queues until nothing waits, or the budget is used up. Steps 2 to 4 of DelTetSurf with Quality and the
-  /// deviation bound: removes interior vertices from the surface, and splits restricted triangles that are too large, too
-  /// skinny, or have one label on both sides. Step 7, once tetrahedra are watched and while no triangle waits: splits those that break a criterion.
+  /// deviation bound: removes interior vertices from the surface, and splits restricted triangles that are too large,
+  /// too skinny, or have one label on both sides. Step 7, once tetrahedra are watched and while no triangle waits:
+  /// splits those that break a criterion.
   void refine();
   /// If there is no triangle to refine, though the surface is there: inserts what makes one, for each component if it
   /// has a persistent triangle. True if anything was inserted.
@@ -53,7 +54,8 @@ class Refinement {
   /// if anything was inserted: step 3 must look again.
   bool smooth();
   /// Not in the book: one insertion for each fold of the surface that is sharper than the bound, until its balls are
-  /// the smallest; none once step 5 has turned out to be hopeless. True if anything was inserted.
+  /// the smallest; none once step 5 has turned out to be hopeless, or where there are landmarks. True if anything was
+  /// inserted.
   bool repair_folds(double min_fold_degrees);
 
   /// Fills the inside with a lattice where a constant bound on circumradii leaves room for one.
