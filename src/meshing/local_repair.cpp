@@ -1,6 +1,7 @@
 #include "meshing/local_repair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -49,14 +50,26 @@ double LocalRepair::move_corners(std::uint32_t tet) {
     Point3 place;
     const double by_moving = smoothing_.improve(v, place);
     if (!(by_moving > least)) continue;
-    mesh_.move(v, place);
-    guard_.changed(mesh_.fan(v));
-    ++moves_;
+    move(v, place);
     gain += by_moving;
-    await(mesh_.star(v));
     if (!is_sliver(tet)) break;
   }
   return gain;
+}
+
+double LocalRepair::displace(std::uint32_t vertex, const Vector3& step) {
+  Point3 place;
+  const double gain = smoothing_.displace(vertex, step, place);
+  if (!std::isfinite(gain)) return 0;
+  move(vertex, place);
+  return gain;
+}
+
+void LocalRepair::move(std::uint32_t vertex, const Point3& place) {
+  mesh_.move(vertex, place);
+  guard_.changed(mesh_.fan(vertex));
+  ++moves_;
+  await(mesh_.star(vertex));
 }
 
 }  // namespace delvox

@@ -34,6 +34,9 @@ class LocalRepair {
   double repair(std::uint32_t tet);
   /// Makes a change; slivers among what is new come to wait.
   void apply(const Change& change);
+  /// Moves a vertex by one step if that breaks no other bound; slivers around it come to wait. Returns the gain, which
+  /// may be a loss, 0 if it stays.
+  double displace(std::uint32_t vertex, const Vector3& step);
   /// Ways to reconnect vertices.
   Reconnection& reconnection() { return reconnection_; }
   /// Slivers that came of changes, perhaps repeated, perhaps repaired since.
@@ -44,6 +47,7 @@ class LocalRepair {
  private:
   double reconnect(std::uint32_t tet);
   double move_corners(std::uint32_t tet);
+  void move(std::uint32_t vertex, const Point3& place);
   void await(std::span<const std::uint32_t> tets);
 
   RepairMesh& mesh_;

@@ -60,15 +60,22 @@ class SliverRemoval {
   RunBudget& budget_;
 };
 
-// Single changes while they help, then trials of what resists.
+// Single changes while they help, then trials of what resists, then what takes the longest, for the few that are left.
 void SliverRemoval::run(std::vector<std::uint32_t> slivers, SliverReport& report) {
-  constexpr int kRounds = 3, kTrialRounds = 3;
+  constexpr int kRounds = 3, kTrialRounds = 3, kShakingRounds = 2;
   const auto by_one_change = [&](std::uint32_t tet) { local_.repair(tet); };
   const auto by_trial = [&](std::uint32_t tet) {
     if (!(local_.repair(tet) > 0)) trial_.repair(tet);
   };
+  constexpr int kLargestEffort = 200;
+  int shaken = 0;
+  const auto by_shaking = [&](std::uint32_t tet) {
+    if (local_.repair(tet) > 0 || surface_forbids(mesh_, mesh_.tet(tet), min_dihedral_degrees_)) return;
+    if (!trial_.repair(tet) && ++shaken <= kLargestEffort) trial_.shake(tet);
+  };
   for (int round = 0; round < kRounds && !slivers.empty(); ++round) slivers = one_round(slivers, by_one_change);
   for (int round = 0; round < kTrialRounds && !slivers.empty(); ++round) slivers = one_round(slivers, by_trial);
+  for (int round = 0; round < kShakingRounds && !slivers.empty(); ++round) slivers = one_round(slivers, by_shaking);
   report.reconnections = local_.reconnections();
   report.moves = local_.moves();
   report.insertions = trial_.insertions();

@@ -165,6 +165,17 @@ bool StarSmoothing::step_down(State& state, const Vector3& direction, double len
   return false;
 }
 
+double StarSmoothing::displace(std::uint32_t vertex, const Vector3& step, Point3& place) {
+  State here, there;
+  if (!gather(vertex) || !measure(mesh_.point(vertex), here, kInfinity)) return -kInfinity;
+  const Vector3 along = fan_.empty() ? step : step - dot(step, outward_) * outward_;
+  const auto reached = reach(here.place, along);
+  if (!reached || !measure(*reached, there, kInfinity)) return -kInfinity;
+  if (!fan_.empty() && !triangles_allow(*reached)) return -kInfinity;
+  place = *reached;
+  return here.shortfall - there.shortfall;
+}
+
 double StarSmoothing::improve(std::uint32_t vertex, Point3& place) {
   if (!gather(vertex)) return 0;
   State state;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/hash.h"
 #include "meshing/roughness_guard.h"
 
 namespace delvox {
@@ -24,13 +25,23 @@ bool TrialRepair::repair(std::uint32_t tet) {
 
 // `gain` is that of the change alone.
 bool TrialRepair::attempt(const Change& change, double gain, std::optional<NewVertex> vertex) {
-  constexpr int kSteps = 12;
-  std::vector<std::uint32_t>& waiting = local_.waiting();
-  std::vector<std::uint32_t> before, resisting;
-  before.swap(waiting);
-  mesh_.begin_trial();
+  std::vector<std::uint32_t> waited = begin_trial();
   if (vertex) mesh_.add_vertex(vertex->place, vertex->on_surface);
   local_.apply(change);
+  return end_trial(gain, std::move(waited));
+}
+
+// Returns what waited before.
+std::vector<std::uint32_t> TrialRepair::begin_trial() {
+  mesh_.begin_trial();
+  return std::exchange(local_.waiting(), {});
+}
+
+// Repairs what came to wait since a trial began, and keeps all if there is a gain in the end.
+bool TrialRepair::end_trial(double gain, std::vector<std::uint32_t> waited) {
+  constexpr int kSteps = 12;
+  std::vector<std::uint32_t>& waiting = local_.waiting();
+  std::vector<std::uint32_t> resisting;
   for (int step = 0; step < kSteps && !waiting.empty(); ++step) {
     const std::uint32_t tet = waiting.back();
     waiting.pop_back();
@@ -41,13 +52,54 @@ bool TrialRepair::attempt(const Change& change, double gain, std::optional<NewVe
   const bool better = gain > least_gain_;
   if (better) {
     mesh_.keep_trial();
-    before.insert(before.end(), waiting.begin(), waiting.end());
-    before.insert(before.end(), resisting.begin(), resisting.end());
+    waited.insert(waited.end(), waiting.begin(), waiting.end());
+    waited.insert(waited.end(), resisting.begin(), resisting.end());
   } else {
     mesh_.undo_trial();
   }
-  waiting.swap(before);
+  waiting.swap(waited);
   return better;
+}
+
+bool TrialRepair::shake(std::uint32_t tet) {
+  constexpr int kShakes = 48;
+  least_gain_ = local_.least_gain(tet);
+  const Tet corners = mesh_.tet(tet);
+  const std::vector<std::uint32_t> around = neighborhood(corners);
+  double shortest = kInfinity;
+  for (int i = 0; i < 4; ++i) {
+    for (int j = 0; j < i; ++j) shortest = std::min(shortest, distance(mesh_.point(corners[i]), mesh_.point(corners[j])));
+  }
+  for (int k = 0; k < kShakes; ++k) {
+    const double reach = shortest * (0.05 + 0.3 * k / kShakes);
+    std::vector<std::uint32_t> waited = begin_trial();
+    local_.waiting().push_back(tet);
+    const double gain = disturb(k % 2 == 0 ? std::span(corners) : std::span(around), reach, mix_hash(tet) + k);
+    if (end_trial(gain, std::move(waited))) return true;
+  }
+  return false;
+}
+
+// Moves vertices by up to `reach`. Returns the gain, most often a loss.
+double TrialRepair::disturb(std::span<const std::uint32_t> vertices, double reach, std::uint64_t seed) {
+  double gain = 0;
+  const auto random = [&] { return 2 * unit_interval(seed = mix_hash(seed)) - 1; };
+  for (std::uint32_t v : vertices) {
+    const double x = random(), y = random(), z = random();
+    gain += local_.displace(v, {reach * x, reach * y, reach * z});
+  }
+  return gain;
+}
+
+// Vertices that share tets with these, and these.
+std::vector<std::uint32_t> TrialRepair::neighborhood(std::span<const std::uint32_t> vertices) const {
+  std::vector<std::uint32_t> all;
+  for (std::uint32_t v : vertices) {
+    for (std::uint32_t t : mesh_.star(v)) all.insert(all.end(), mesh_.tet(t).begin(), mesh_.tet(t).end());
+  }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 bool TrialRepair::reconnect(std::uint32_t tet) {
@@ -102,11 +154,7 @@ bool TrialRepair::remove_vertices(std::uint32_t tet) {
   double best = -kAllowance;
   for (std::uint32_t v : corners) {
     if (mesh_.on_boundary(v)) continue;
-    std::vector<std::uint32_t> neighbors;
-    for (std::uint32_t t : mesh_.star(v)) neighbors.insert(neighbors.end(), mesh_.tet(t).begin(), mesh_.tet(t).end());
-    std::sort(neighbors.begin(), neighbors.end());
-    neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
-    for (std::uint32_t into : neighbors) {
+    for (std::uint32_t into : neighborhood({&v, 1})) {
       if (into == v) continue;
       const double gain = merge(v, into, change_);
       if (!(gain > best)) continue;

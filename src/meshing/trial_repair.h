@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "meshing/local_repair.h"
@@ -19,6 +20,9 @@ class TrialRepair {
 
   /// Whether something was found that makes things better.
   bool repair(std::uint32_t tet);
+  /// The same by moving all vertices around at once, at random, and repairing that: what is best for each vertex alone
+  /// need not be best for all. Takes as long as dozens of other repairs.
+  bool shake(std::uint32_t tet);
   std::size_t insertions() const { return insertions_; }
   std::size_t removals() const { return removals_; }
 
@@ -37,6 +41,10 @@ class TrialRepair {
     Point3 place;
     bool on_surface;
   };
+  std::vector<std::uint32_t> begin_trial();
+  bool end_trial(double gain, std::vector<std::uint32_t> waited);
+  double disturb(std::span<const std::uint32_t> vertices, double reach, std::uint64_t seed);
+  std::vector<std::uint32_t> neighborhood(std::span<const std::uint32_t> vertices) const;
   bool attempt(const Change& change, double gain, std::optional<NewVertex> vertex = std::nullopt);
   using Edge = std::array<std::uint32_t, 2>;
   std::optional<Point3> split(const Edge& edge, Change& change, double& gain) const;

@@ -47,7 +47,18 @@ int faces_on_boundary(const RepairMesh& mesh, const Tet& tet) {
   }));
 }
 
+// Why no tets that keep the nodes and triangles there could do better; none if they might.
+const char* what_forbids(const RepairMesh& mesh, const Tet& tet, double min_dihedral_degrees) {
+  if (faces_on_boundary(mesh, tet) >= 3) return "three or four of the tet's faces lie on the surface";
+  if (folds_at_an_edge(mesh, tet, min_dihedral_degrees)) return "the surface folds more sharply at an edge of the tet";
+  return nullptr;
+}
+
 }  // namespace
+
+bool surface_forbids(const RepairMesh& mesh, const Tet& tet, double min_dihedral_degrees) {
+  return what_forbids(mesh, tet, min_dihedral_degrees) != nullptr;
+}
 
 std::vector<UnmetTet> unmet_tets(const RepairMesh& mesh, std::span<const std::uint32_t> slivers,
                                  double min_dihedral_degrees) {
@@ -58,15 +69,9 @@ std::vector<UnmetTet> unmet_tets(const RepairMesh& mesh, std::span<const std::ui
     unmet.where = 0.25 * ((mesh.point(tet[0]) + mesh.point(tet[1])) + (mesh.point(tet[2]) + mesh.point(tet[3])));
     unmet.dihedral_degrees = degrees(geometry_of(mesh, tet).largest_cosine());
     if (unmet.dihedral_degrees >= min_dihedral_degrees) continue;  // repair aims a little higher
-    if (faces_on_boundary(mesh, tet) >= 3) {
-      unmet.reason = "three or four of the tet's faces lie on the surface";
-      unmet.surface_forbids = true;
-    } else if (folds_at_an_edge(mesh, tet, min_dihedral_degrees)) {
-      unmet.reason = "the surface folds more sharply at an edge of the tet";
-      unmet.surface_forbids = true;
-    } else {
-      unmet.reason = "no change was found that keeps all other bounds";
-    }
+    const char* forbids = what_forbids(mesh, tet, min_dihedral_degrees);
+    unmet.surface_forbids = forbids != nullptr;
+    unmet.reason = forbids ? forbids : "no change was found that keeps all other bounds";
     result.push_back(std::move(unmet));
   }
   return result;
