@@ -3,7 +3,7 @@
 
 #include "delvox/core/errors.h"
 #include "delvox/oracle/formula.h"
-#include "format.h"
+#include "formula_flags.h"
 #include "meshing_domain.h"
 #include "sizes.h"
 
@@ -12,23 +12,6 @@ namespace {
 
 constexpr double kSizesPerDiagonal = 40;
 constexpr double kMinBallRadiusSizes = 0.001;
-
-Box3 parse_box(const std::string& text) {
-  const auto fail = [&text](const std::string& cause) {
-    throw OptionError("--box '" + text + "': " + cause + "; give --box=x0:x1,y0:y1,z0:z1");
-  };
-  const std::vector<std::string> ranges = split(text, ',');
-  if (ranges.size() != 3) fail("there must be three ranges");
-  Box3 box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::vector<std::string> ends = split(ranges[static_cast<std::size_t>(axis)], ':');
-    if (ends.size() != 2) fail("a range is two numbers and a colon");
-    box.min[axis] = parse_number(ends[0], "--box '" + text + "'");
-    box.max[axis] = parse_number(ends[1], "--box '" + text + "'");
-    if (!(box.min[axis] < box.max[axis])) fail("a range must go up");
-  }
-  return box;
-}
 
 class FormulaDomain final : public MeshingDomain {
  public:

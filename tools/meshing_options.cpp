@@ -4,6 +4,7 @@
 
 #include "delvox/core/errors.h"
 #include "delvox/mesh_io/read_mesh.h"
+#include "formula_flags.h"
 #include "validators.h"
 
 namespace delvox::tools {
@@ -129,21 +130,6 @@ void add_limit_options(CLI::App& app, MeshingOptions& options) {
       ->type_name("SIZE");
 }
 
-void add_formula_options(CLI::App& app, MeshingOptions& options) {
-  auto* implicit =
-      app.add_option("--implicit", options.implicit,
-                     "In place of a volume: a formula in x, y, z; inside is where it is at most 0. + - * / "
-                     "^, numbers, pi, e, sin, cos, tan, asin, acos, atan, sinh, cosh, tanh, exp, log, sqrt, "
-                     "abs, min, max");
-  implicit->type_name("FORMULA");
-  auto* box =
-      app.add_option("--box", options.box,
-                     "Where --implicit is looked at, mm, as --box=-2:2,-2:2,-2:2; its inside must not reach the "
-                     "border of the box");
-  box->needs(implicit)->type_name("BOX");
-  implicit->needs(box);
-}
-
 /// What makes sense for volumes only.
 constexpr const char* kOfVolumes[] = {"--iso",      "--below",         "--border",        "--spacing", "--volume-index",
                                       "--crop",     "--resample",      "--smooth",        "--largest", "--min-component",
@@ -191,7 +177,7 @@ void add_volume_options(CLI::App& app, MeshingOptions& options) {
 
 void add_meshing_options(CLI::App& app, MeshingOptions& options) {
   add_input(app, options);
-  if (options.input != InputKind::kPolygons) add_formula_options(app, options);
+  if (options.input != InputKind::kPolygons) add_formula_options(app, options.implicit, options.box, "In place of a volume");
   add_mesh_output_options(app, options.output);
   if (options.kind == MeshKind::kTets) {
     add_tet_output_options(app, options.output);

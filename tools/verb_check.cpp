@@ -1,13 +1,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <utility>
 
 #include "console.h"
 #include "delvox/check/check_mesh.h"
 #include "delvox/core/errors.h"
 #include "delvox/mesh_io/read_mesh.h"
+#include "delvox/oracle/formula.h"
+#include "delvox/oracle/spline_function.h"
 #include "exit_codes.h"
 #include "format.h"
+#include "formula_flags.h"
 #include "mesh_output.h"
 #include "report_json.h"
 #include "signals.h"
@@ -23,7 +28,8 @@ namespace {
 struct Options {
   std::vector<std::string> meshes;
   VolumeInputOptions volume;
-  std::string surface;
+  std::string surface, implicit, box;
+  std::string interpolation = "trilinear";
   IsosurfaceOptions isosurface;
   Promises bounds;
   std::string border, frame, report;
@@ -45,10 +51,19 @@ void add_options(CLI::App& app, Options& options) {
   volume->type_name("VOLUME");
   auto* surface = app.add_option("--surface", options.surface, "Compare with this polygon surface");
   surface->excludes(volume)->type_name("SURFACE");
+  add_formula_options(app, options.implicit, options.box, "Compare with a formula");
+  app.get_option("--implicit")->excludes(volume)->excludes(surface);
+  app.add_option("--interpolation", options.interpolation,
+                 "What the volume's samples are taken for: trilinear, or the quintic B-spline that --algorithm delsurf2 "
+                 "meshes, of up to 32 x 32 x 32 voxels")
+      ->check(CLI::IsMember({"trilinear", "quintic"}))
+      ->needs(volume)
+      ->capture_default_str()
+      ->type_name("HOW");
   add_isovalue_options(app, options.isosurface);
   app.get_option("--iso")->needs(volume)->default_str("what the mesh carries");
   app.add_flag("--same-topology", options.same_topology,
-               "Components and Euler number must equal those of the volume's isosurface, or of the surface");
+               "Components and Euler number must equal those of what the meshes are compared with");
   add_bound(app, "--min-angle", options.bounds.min_angle_degrees, "Lower bound on the angles of triangles", "DEG");
   add_bound(app, "--radius-edge", options.bounds.radius_edge, "Upper bound on circumradius / shortest edge", "RATIO");
   add_bound(app, "--cell-size", options.bounds.cell_size, "Upper bound on the circumradii of tets, mm", "MM");
@@ -86,25 +101,61 @@ Promises bounds_for(const MeshInfo& info, const Promises& given) {
   return bounds;
 }
 
-// The isosurface that a mesh is held to, in the volume as meshed: preprocessed, small components taken out.
-struct Reference {
-  Isosurface surface;
-  Volume volume;
-};
-
-Reference reference_for(const std::string& path, const MeshInfo& info, const Volume& volume, const Options& options) {
+// Of the volume, the isosurface that a mesh is held to.
+Isosurface isosurface_for(const std::string& path, const MeshInfo& info, const Volume& volume, const Options& options) {
   Isosurface surface{info.isovalue.value_or(0), info.below || options.isosurface.below};
   if (!options.isosurface.iso.empty()) {
     const FrameChange frame(volume.header().frame, options.frame);
     const ChosenIsosurface chosen = choose_isosurface(*source_of(volume), options.isosurface, frame);
     check_isosurface(chosen, volume);
-    surface = chosen.surface;
-    surface.below = info.below || options.isosurface.below;
+    surface.isovalue = chosen.surface.isovalue;
   } else if (!info.isovalue) {
     throw OptionError(path + ": carries no isovalue; give --iso");
   }
-  const double size = info.promises.size.value_or(0);
-  return {surface, filter_volume(volume, surface, options.isosurface, size).volume};
+  return surface;
+}
+
+// What a mesh is held to, in so far as it takes making.
+struct Reference {
+  std::optional<Volume> volume;  // as meshed: small components taken out
+  std::shared_ptr<SmoothFunction> spline;
+  std::optional<ImplicitFunction> function;
+};
+
+// The spline through the samples, whatever components its surface has.
+void compare_with_spline(const Volume& volume, const Isosurface& surface, Reference& reference, CheckOptions& check) {
+  SmoothDomain domain = make_spline_domain(volume, surface);
+  reference.spline = std::move(domain.function);
+  const auto evaluate = [spline = reference.spline](const Point3& p) {
+    std::array<double, SmoothFunction::kResults[1]> results;
+    spline->evaluate(p, 1, results.data());
+    return results;
+  };
+  reference.function = ImplicitFunction{[evaluate](const Point3& p) { return evaluate(p)[0]; },
+                                        [evaluate](const Point3& p) {
+                                          const auto results = evaluate(p);
+                                          return Vector3{results[1], results[2], results[3]};
+                                        },
+                                        domain.box};
+  check.function = &*reference.function;
+  check.function_to_world = domain.to_world;
+}
+
+void compare_with_volume(const std::string& path, const MeshInfo& info, const Volume& volume, const Options& options,
+                         Reference& reference, CheckOptions& check) {
+  const Isosurface surface = isosurface_for(path, info, volume, options);
+  if (options.interpolation == "quintic") return compare_with_spline(volume, surface, reference, check);
+  reference.volume = filter_volume(volume, surface, options.isosurface, info.promises.size.value_or(0)).volume;
+  check.volume = &*reference.volume;
+  check.isosurface = surface;
+}
+
+void compare_with_formula(const Options& options, Reference& reference, CheckOptions& check) {
+  const Formula formula(options.implicit);
+  reference.function = ImplicitFunction{[formula](const Point3& p) { return formula.value(p); },
+                                        [formula](const Point3& p) { return formula.gradient(p); },
+                                        parse_box(options.box)};
+  check.function = &*reference.function;
 }
 
 // Carries a mesh to the frame of what it is compared with; one that states no frame is in --frame, or else in that.
@@ -140,16 +191,15 @@ CheckReport check_file(const std::string& path, const Original& original, const 
   if (!options.border.empty()) check.open_border = options.border == "open";
   check.coordinate_error = file.coordinate_error;
   check.require_same_topology = options.same_topology;
-  std::optional<Reference> reference;
+  Reference reference;
+  if (!options.implicit.empty()) compare_with_formula(options, reference, check);
   if (original.surface) {
     to_frame(original.surface->info.frame, file.mesh, options);
     check.surface = &*original.surface;
   }
   if (const auto& volume = original.volume) {
-    reference = reference_for(path, info_of(file.mesh), *volume, options);
+    compare_with_volume(path, info_of(file.mesh), *volume, options, reference, check);
     to_frame(volume->header().frame, file.mesh, options);
-    check.volume = &reference->volume;
-    check.isosurface = reference->surface;
   }
   return check_mesh(file.mesh, check);
 }
@@ -163,8 +213,8 @@ void run_check(const Verb& verb, const Arguments& arguments) {
   const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
 
-  if (options.same_topology && options.volume.path.empty() && options.surface.empty()) {
-    throw OptionError("--same-topology: as what? Give --volume or --surface");
+  if (options.same_topology && options.volume.path.empty() && options.surface.empty() && options.implicit.empty()) {
+    throw OptionError("--same-topology: as what? Give --volume, --surface or --implicit");
   }
   for (const std::string& mesh : options.meshes) check_output(options.report, mesh);
   const Console console(options.console);

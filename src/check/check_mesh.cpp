@@ -6,6 +6,7 @@
 
 #include "check/crossing_triangles.h"
 #include "check/element_quality.h"
+#include "check/function_checks.h"
 #include "check/gradation.h"
 #include "check/point_checks.h"
 #include "check/report_builder.h"
@@ -83,6 +84,7 @@ class MeshChecker {
       check_voxels();
       if (tets_ != nullptr) measure_for_solvers();
       if (options_.surface != nullptr) check::check_against_surface(surface_of_mesh(), options_, builder_, report_);
+      if (options_.function != nullptr) check::check_against_function(surface_of_mesh(), options_, builder_, report_);
     }
     return std::move(report_);
   }

@@ -30,6 +30,20 @@ TEST(CliFormula, ATorusBecomesASurfaceAndTets) {
   EXPECT_EQ(report["formula"], torus);
   EXPECT_EQ(report["box"]["max"], json({2, 2, 2}));
   EXPECT_EQ(run_on(folder, {"check", "torus.vtu"}).code, 0);
+  EXPECT_EQ(run_on(folder, {"check", "torus.ply", "torus.vtu", "--implicit", torus, kBox, "--same-topology"}).code, 0);
+  const Outcome thinner = run_on(folder, {"check", "torus.ply", "--quiet", "--implicit", torus + "+0.01", kBox});
+  EXPECT_EQ(thinner.code, 5);
+  EXPECT_NE(thinner.err.find("nodes on the surface of the function"), std::string::npos) << thinner.err;
+}
+
+TEST(CliFormula, CheckComparesWithOneThingAtATime) {
+  const std::vector<std::string> sphere = {"check", "a.ply", "--implicit", "x^2+y^2+z^2-1", kBox};
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--volume", "a.nii"}, {"--surface", "a.stl"},
+                                               {"--interpolation", "quintic"}}) {
+    std::vector<std::string> all = sphere;
+    all.insert(all.end(), more.begin(), more.end());
+    EXPECT_EQ(run_delvox(all).code, 2) << more[0];
+  }
 }
 
 TEST(CliFormula, TheNumberOfTetsCanBeAskedFor) {
@@ -194,6 +208,17 @@ TEST(CliDelSurf2, MeshesASmallVolumeThroughASpline) {
                                           "--min-angle", "0", "-o", "torus.ply"});
   EXPECT_EQ(outcome.code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("genus 1"), std::string::npos) << outcome.out;
+  const auto check = [&](const std::string& iso, const std::string& interpolation) {
+    return run_on(folder, {"check", "torus.ply", "--volume", "torus.nii", "--iso", iso, "--interpolation",
+                           interpolation, "--same-topology", "--json"});
+  };
+  const Outcome of_spline = check("0", "quintic"), elsewhere = check("0.01", "quintic"), of_voxels = check("0", "trilinear");
+  EXPECT_EQ(of_spline.code, 0) << of_spline.err;
+  EXPECT_EQ(json::parse(of_spline.out)["meshes"][0]["surface_comparison"]["surface_euler"], 0);
+  EXPECT_EQ(elsewhere.code, 5) << elsewhere.err;
+  EXPECT_NE(elsewhere.err.find("nodes on the surface of the function"), std::string::npos) << elsewhere.err;
+  EXPECT_EQ(of_voxels.code, 0) << of_voxels.err;  // its nodes are held to nothing there
+  EXPECT_TRUE(json::parse(of_voxels.out)["meshes"][0].contains("comparison"));
   const Outcome one = run_on(folder, {"surface", "torus.nii", "--algorithm", "delsurf2", "--largest", "-o", "a.ply"});
   EXPECT_EQ(one.code, 2) << one.err;
 

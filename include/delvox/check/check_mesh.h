@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "delvox/core/mesh.h"
+#include "delvox/oracle/implicit_oracle.h"
 #include "delvox/volume/level_set.h"
 #include "delvox/volume/voxel_topology.h"
 
 namespace delvox {
 
 /// Cheap: everything that needs the mesh alone; a fraction of a second for a million tets, run after every mesher.
-/// Full: adds crossing triangles, and everything that compares the mesh with a volume or a polygon surface.
+/// Full: adds crossing triangles, and everything that compares the mesh with a volume, a polygon surface or a function.
 enum class CheckLevel { kCheap, kFull };
 
 /// What check_mesh holds a mesh to.
@@ -27,7 +28,9 @@ struct CheckOptions {
   std::optional<double> node_tolerance_voxels;  ///< how far a surface node may lie from the isosurface;
                                                 ///< default: 1e-4 if the mesh carries an isovalue, else no bound
   const SurfaceMesh* surface = nullptr;  ///< compare with this polygon surface, in the same frame as the mesh
-  bool require_same_topology = false;  ///< fail unless components and Euler number equal the volume's, the surface's
+  const ImplicitFunction* function = nullptr;  ///< compare with its zero set: a formula, the spline of a volume
+  Affine3 function_to_world;                   ///< an isometry from its coordinates to those of the mesh
+  bool require_same_topology = false;  ///< fail unless components and Euler number equal those of what it is compared with
 };
 
 /// How a check ended; kNotApplicable: there was nothing to hold the mesh to.
@@ -95,9 +98,10 @@ struct VoxelComparison {
   SurfaceDistances distances;
 };
 
-/// How mesh and polygon surface compare; filled when one was given and the level is full.
+/// How a mesh compares with a polygon surface or the zero set of a function; filled when one was given and the level is
+/// full.
 struct SurfaceComparison {
-  std::size_t components = 0;  ///< of the polygon surface, equal points being one
+  std::size_t components = 0;  ///< of the polygon surface, equal points being one; of a function, as samples show them
   long euler = 0;
   SurfaceDistances distances;
 };
