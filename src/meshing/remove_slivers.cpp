@@ -62,7 +62,7 @@ class SliverRemoval {
 
 // Single changes while they help, then trials of what resists, then what takes the longest, for the few that are left.
 void SliverRemoval::run(std::vector<std::uint32_t> slivers, SliverReport& report) {
-  constexpr int kRounds = 3, kTrialRounds = 3, kShakingRounds = 2;
+  constexpr int kRounds = 3, kTrialRounds = 3, kShakingRounds = 8;
   const auto by_one_change = [&](std::uint32_t tet) { local_.repair(tet); };
   const auto by_trial = [&](std::uint32_t tet) {
     if (!(local_.repair(tet) > 0)) trial_.repair(tet);

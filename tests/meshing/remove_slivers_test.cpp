@@ -30,9 +30,9 @@ RemoveSliversOptions options_for(double size, double min_ball_radius, double min
   return options;
 }
 
-Repaired repair(const Oracle& oracle, const RemoveSliversOptions& options) {
+Repaired repair(const Oracle& oracle, const RemoveSliversOptions& options, double min_fold_degrees = 0) {
   Repaired result;
-  result.before = deltetsurf(oracle, {options.surface, options.tets, {}}, result.report);
+  result.before = deltetsurf(oracle, {options.surface, options.tets, {}, {}, min_fold_degrees}, result.report);
   result.mesh = result.before;
   result.slivers = remove_slivers(result.mesh, oracle, options, result.report);
   return result;
@@ -129,6 +129,20 @@ TEST(RemoveSlivers, TellsWhatIsLeftOnNoiseAndBreaksNothing) {
   std::size_t told = 0;
   for (const Unmet& unmet : repaired.report.unmet) told += unmet.criterion == "dihedral" ? unmet.count : 0;
   EXPECT_EQ(told, repaired.slivers.unmet.size());
+}
+
+// Of each of these one tet was left, though its surface forbids nothing, until vertices were moved together.
+TEST(RemoveSlivers, MovesSeveralVerticesAtOnceWhereNoneCanAlone) {
+  for (std::uint64_t seed : {1, 2}) {
+    SCOPED_TRACE(seed);
+    PhantomCase c{"random", phantom_defaults("random"), 0.8, 1.3};
+    c.image.dims = {14, 14, 14};
+    c.image.seed = seed;
+    const auto oracle = make_isosurface_oracle(c.volume(), c.isosurface());
+    const Repaired repaired = repair(*oracle, options_for(c.size, 1e-4, 20), min_fold_for(20));
+    test::expect_all_checks_hold(repaired.mesh);
+    for (const UnmetTet& tet : repaired.slivers.unmet) EXPECT_TRUE(tet.surface_forbids) << tet.dihedral_degrees;
+  }
 }
 
 TEST(RemoveSlivers, KeepsSizesThatVaryAndADeviationThatIsPromised) {
