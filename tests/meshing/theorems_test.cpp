@@ -328,9 +328,10 @@ TEST_P(TetTheorems, T14_15_Hold) {
     }
     const bool same = triangles == restricted_triangulation(*oracle, on_surface);  // (v)
     const double part = measure(surface, boundary, epsilon).distance;              // (vi)
-    RecordProperty("iv", homeomorphic);
-    RecordProperty("v", same);
-    RecordProperty("vi", std::to_string(part));
+    const std::string at = "_at_radius_edge_" + std::to_string(static_cast<int>(ratio));
+    RecordProperty("iv" + at, homeomorphic);
+    RecordProperty("v" + at, same);
+    RecordProperty("vi" + at, std::to_string(part));
     if (restricted == Restricted::kBipolar) continue;  // an open question (exercise 9): observed
     EXPECT_TRUE(homeomorphic);
     EXPECT_TRUE(same);
