@@ -10,6 +10,7 @@
 #include "format.h"
 #include "mesh_output.h"
 #include "report_json.h"
+#include "samples_input.h"
 #include "signals.h"
 #include "validators.h"
 #include "verdict.h"
@@ -23,7 +24,8 @@ namespace {
 struct Options {
   std::vector<std::string> meshes;
   VolumeInputOptions volume;
-  std::string surface;
+  std::string surface, samples;
+  SamplesInputOptions samples_input;
   IsosurfaceOptions isosurface;
   Promises bounds;
   std::string border, frame, report;
@@ -45,10 +47,15 @@ void add_options(CLI::App& app, Options& options) {
   volume->type_name("VOLUME");
   auto* surface = app.add_option("--surface", options.surface, "Compare with this polygon surface");
   surface->excludes(volume)->type_name("SURFACE");
+  auto* samples = app.add_option("--samples", options.samples,
+                                 "Compare with the isosurface of these scattered samples, linear between them");
+  samples->excludes(volume)->excludes(surface)->type_name("SAMPLES");
+  add_field_option(app, options.samples_input);
+  app.get_option("--field")->needs(samples);
   add_isovalue_options(app, options.isosurface);
-  app.get_option("--iso")->needs(volume)->default_str("what the mesh carries");
+  app.get_option("--iso")->default_str("what the mesh carries");
   app.add_flag("--same-topology", options.same_topology,
-               "Components and Euler number must equal those of the volume's isosurface, or of the surface");
+               "Components and Euler number must equal those of the volume's or samples' isosurface, or of the surface");
   add_bound(app, "--min-angle", options.bounds.min_angle_degrees, "Lower bound on the angles of triangles", "DEG");
   add_bound(app, "--radius-edge", options.bounds.radius_edge, "Upper bound on circumradius / shortest edge", "RATIO");
   add_bound(app, "--cell-size", options.bounds.cell_size, "Upper bound on the circumradii of tets, mm", "MM");
@@ -92,17 +99,22 @@ struct Reference {
   Volume volume;
 };
 
+// The isovalue that a mesh carries, unless --iso chooses another one: choose(frame).
+template <class Choose>
+Isosurface isosurface_of(const std::string& path, const MeshInfo& info, Frame frame, const Options& options,
+                         const Choose& choose) {
+  if (options.isosurface.iso.empty() && !info.isovalue) throw OptionError(path + ": carries no isovalue; give --iso");
+  const bool below = info.below || options.isosurface.below;
+  if (options.isosurface.iso.empty()) return {*info.isovalue, below};
+  return {choose(FrameChange(frame, options.frame)).surface.isovalue, below};
+}
+
 Reference reference_for(const std::string& path, const MeshInfo& info, const Volume& volume, const Options& options) {
-  Isosurface surface{info.isovalue.value_or(0), info.below || options.isosurface.below};
-  if (!options.isosurface.iso.empty()) {
-    const FrameChange frame(volume.header().frame, options.frame);
+  const Isosurface surface = isosurface_of(path, info, volume.header().frame, options, [&](const FrameChange& frame) {
     const ChosenIsosurface chosen = choose_isosurface(*source_of(volume), options.isosurface, frame);
     check_isosurface(chosen, volume);
-    surface = chosen.surface;
-    surface.below = info.below || options.isosurface.below;
-  } else if (!info.isovalue) {
-    throw OptionError(path + ": carries no isovalue; give --iso");
-  }
+    return chosen;
+  });
   const double size = info.promises.size.value_or(0);
   return {surface, filter_volume(volume, surface, options.isosurface, size).volume};
 }
@@ -114,10 +126,11 @@ void to_frame(Frame of_other, Mesh& mesh, const Options& options) {
   if (of_other != Frame::kUnknown) FrameChange(own, of_other == Frame::kRas ? "ras" : "lps").apply(mesh);
 }
 
-// What meshes are compared with: one of the two, or nothing.
+// What meshes are compared with: one of the three, or nothing.
 struct Original {
   std::optional<Volume> volume;
   std::optional<SurfaceMesh> surface;
+  std::optional<SampleField> samples;
 };
 
 Original read_original(const Options& options, const Console& console) {
@@ -127,6 +140,7 @@ Original read_original(const Options& options, const Console& console) {
     tell_warnings(original.volume->header(), options.volume, console);
   }
   if (!options.surface.empty()) original.surface = surface_of(read_mesh(options.surface).mesh);
+  if (!options.samples.empty()) original.samples = read_samples_input(options.samples, options.samples_input).field;
   return original;
 }
 
@@ -141,9 +155,18 @@ CheckReport check_file(const std::string& path, const Original& original, const 
   check.coordinate_error = file.coordinate_error;
   check.require_same_topology = options.same_topology;
   std::optional<Reference> reference;
-  if (original.surface) {
-    to_frame(original.surface->info.frame, file.mesh, options);
-    check.surface = &*original.surface;
+  std::optional<SurfaceMesh> isosurface;
+  const SurfaceMesh* polygons = original.surface ? &*original.surface : nullptr;
+  if (const auto& samples = original.samples) {
+    const Frame frame = samples->samples().frame;
+    isosurface = samples_isosurface(
+        *samples, isosurface_of(path, info_of(file.mesh), frame, options,
+                                [&](const FrameChange& to) { return choose_isosurface(*samples, options.isosurface, to); }));
+    polygons = &*isosurface;
+  }
+  if (polygons != nullptr) {
+    to_frame(polygons->info.frame, file.mesh, options);
+    check.surface = polygons;
   }
   if (const auto& volume = original.volume) {
     reference = reference_for(path, info_of(file.mesh), *volume, options);
@@ -163,8 +186,12 @@ void run_check(const Verb& verb, const Arguments& arguments) {
   const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
 
-  if (options.same_topology && options.volume.path.empty() && options.surface.empty()) {
-    throw OptionError("--same-topology: as what? Give --volume or --surface");
+  const bool compares_isosurface = !options.volume.path.empty() || !options.samples.empty();
+  if (options.same_topology && !compares_isosurface && options.surface.empty()) {
+    throw OptionError("--same-topology: as what? Give --volume, --samples or --surface");
+  }
+  if (!options.isosurface.iso.empty() && !compares_isosurface) {
+    throw OptionError("--iso: of what? Give --volume or --samples");
   }
   for (const std::string& mesh : options.meshes) check_output(options.report, mesh);
   const Console console(options.console);
