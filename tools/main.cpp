@@ -17,8 +17,8 @@ namespace delvox::tools {
 namespace {
 
 constexpr Verb kVerbs[] = {
-    {"info", "VOLUME", "what is in this scan, which isovalues make sense", run_info},
-    {"surface", "VOLUME -o MESH", "triangle mesh of an isosurface, or of a formula (DelSurf)", run_surface},
+    {"info", "INPUT", "what is in this scan, or in these samples; which isovalues make sense", run_info},
+    {"surface", "INPUT -o MESH", "triangle mesh of an isosurface of a volume, samples or a formula (DelSurf)", run_surface},
     {"remesh", "SURFACE -o MESH", "new triangle mesh of a closed polygon surface (SurfRemesh)", run_remesh},
     {"tet", "INPUT -o MESH", "tetrahedral mesh of what an isosurface, a polygon surface or a formula encloses", run_tet},
     {"check", "MESH...", "is a mesh what it promises; how far is it from the voxels", run_check},

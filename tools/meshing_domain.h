@@ -68,11 +68,22 @@ class MeshingDomain {
   virtual Json report() const = 0;
 };
 
+/// Of surfaces made of polygons: repair of the topology ends at `min`; from `thin` on it gives up if the smaller the
+/// balls, the more of them it takes.
+struct PolygonBallRadii {
+  double min, thin;
+};
+inline PolygonBallRadii polygon_ball_radii(const SizeField& size) {
+  return {0.001 * size.minimum(), 0.25 * size.minimum()};
+}
+
 /// The isosurface of a volume. Keeps a reference to the options.
 std::unique_ptr<MeshingDomain> make_volume_domain(const MeshingOptions& options);
 /// The domain of --implicit and --box. Throws OptionError: the formula or the box does not parse.
 std::unique_ptr<MeshingDomain> make_formula_domain(const MeshingOptions& options);
 /// What a polygon surface encloses. Keeps a reference to the options.
 std::unique_ptr<MeshingDomain> make_polygon_domain(const MeshingOptions& options);
+/// The isosurface of scattered samples. Keeps a reference to the options.
+std::unique_ptr<MeshingDomain> make_samples_domain(const MeshingOptions& options);
 
 }  // namespace delvox::tools

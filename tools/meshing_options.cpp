@@ -1,10 +1,12 @@
 #include "meshing_options.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 
 #include "delvox/core/errors.h"
 #include "delvox/mesh_io/read_mesh.h"
 #include "formula_flags.h"
+#include "delvox/mesh_io/read_samples.h"
 #include "validators.h"
 
 namespace delvox::tools {
@@ -16,7 +18,8 @@ void add_size_options(CLI::App& app, MeshingOptions& options) {
       "Upper bound on the radii of surface Delaunay balls, mm: a number; a volume file as size "
       "field; a formula in x, y, z; lfs or curvature: --epsilon times the local feature size "
       "or the radius of curvature (default: 1/60 of the diagonal of the box around what is meshed, of volumes "
-      "at least 1.5 voxel; 1/40 of that of a formula's --box; of --algorithm delsurf1 lfs, of delsurf2 none)");
+      "at least 1.5 voxel, of samples at least their spacing; 1/40 of that of a formula's --box; of --algorithm "
+      "delsurf1 lfs, of delsurf2 none)");
   size->type_name("S");
   app.add_option("--epsilon", options.epsilon,
                  "With --size lfs or curvature: the share of it, up to 1; up to 0.08 meshes are known to be right "
@@ -79,7 +82,7 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
   app.add_option(
          "--min-ball-radius", options.min_ball_radius,
          "Topology, folds, deviation, roughness and --restricted all leave surface balls this small alone, mm (default: "
-         "0.0001 voxel; for formulas and polygon surfaces 0.001 size; for the last two 0.5 voxel, or 0.05 size)")
+         "0.0001 voxel; for formulas, samples and polygon surfaces 0.001 size; for the last two 0.5 voxel, or 0.05 size)")
       ->check(finite_number(Zero::kAllowed))
       ->type_name("MM");
 }
@@ -130,27 +133,50 @@ void add_limit_options(CLI::App& app, MeshingOptions& options) {
       ->type_name("SIZE");
 }
 
-/// What makes sense for volumes only.
-constexpr const char* kOfVolumes[] = {"--iso",      "--below",         "--border",        "--spacing", "--volume-index",
-                                      "--crop",     "--resample",      "--smooth",        "--largest", "--min-component",
-                                      "--fill-cavities", "--hu-density", "--modulus", "--material-bins", "--peel",
-                                      "--poisson"};
+/// What makes sense for isosurfaces only; of volumes; of samples.
+constexpr const char* kOfIsosurfaces[] = {"--iso", "--below"};
+constexpr const char* kOfVolumes[] = {"--border", "--spacing", "--volume-index", "--crop", "--resample", "--smooth",
+                                      "--largest", "--min-component", "--fill-cavities", "--hu-density", "--modulus",
+                                      "--material-bins", "--peel", "--poisson"};
+constexpr const char* kOfSamples[] = {"--field", "--interpolation"};
+
+/// Throws OptionError if one of `names` was given.
+template <std::size_t N>
+void refuse(const CLI::App& app, const char* const (&names)[N], const std::string& why) {
+  for (const char* name : names) {
+    const CLI::Option* option = app.get_option_no_throw(name);
+    if (option != nullptr && option->count() > 0) throw OptionError(std::string(name) + ": " + why);
+  }
+}
+
+/// Texts of columns, and .vtu files of which a field, an interpolation or an isovalue is asked for.
+bool holds_samples(const CLI::App& app, const std::string& path) {
+  if (is_samples_path(path)) return true;
+  if (std::filesystem::path(path).extension() != ".vtu") return false;
+  return app.count("--field") + app.count("--interpolation") + app.count("--iso") + app.count("--below") > 0;
+}
 
 void exclude_volume_options(CLI::App& app) {
   CLI::Option* implicit = app.get_option("--implicit");
   const char* input = app.get_option_no_throw("VOLUME") != nullptr ? "VOLUME" : "INPUT";
   implicit->excludes(app.get_option(input));
-  for (const char* name : kOfVolumes) {
-    if (CLI::Option* option = app.get_option_no_throw(name)) implicit->excludes(option);
-  }
+  const auto exclude = [&](const auto& names) {
+    for (const char* name : names) {
+      if (CLI::Option* option = app.get_option_no_throw(name)) implicit->excludes(option);
+    }
+  };
+  exclude(kOfIsosurfaces);
+  exclude(kOfVolumes);
+  exclude(kOfSamples);
 }
 
 constexpr const char* kVolumes = ".nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices";
+constexpr const char* kSamples = "scattered samples: .csv .tsv .txt with columns x, y, z and a value, .vtu with --field";
 constexpr const char* kMeshes = ".stl .ply .off .obj .vtu .vtk .mesh .msh .inp .feb .bdf .nas .unv "
                                 "(of tets: their boundary)";
 
 void add_input(CLI::App& app, MeshingOptions& options) {
-  std::string name = "VOLUME", text = std::string("The scan: ") + kVolumes;
+  std::string name = "VOLUME", text = std::string("The scan: ") + kVolumes + "; or " + kSamples;
   if (options.input == InputKind::kPolygons) {
     name = "SURFACE", text = std::string("A closed polygon surface: ") + kMeshes;
   } else if (options.input == InputKind::kEither) {
@@ -168,6 +194,8 @@ void add_volume_options(CLI::App& app, MeshingOptions& options) {
         ->capture_default_str()
         ->type_name("HOW");
   }
+  add_field_option(app, options.samples);
+  add_interpolation_option(app, options.samples);
   add_reading_options(app, options.volume);
   add_preprocessing_options(app, options.volume);
   add_component_options(app, options.isosurface);
@@ -199,18 +227,24 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
 
 void decide_input(const CLI::App& app, MeshingOptions& options) {
   check_algorithm(app, options);
-  const bool polygons = is_mesh_path(options.volume.path);
+  if (options.input == InputKind::kPolygons) return;
+  const std::string& path = options.volume.path;
+  const bool samples = holds_samples(app, path), polygons = !samples && is_mesh_path(path);
   if (options.input == InputKind::kVolume && polygons) {
-    throw OptionError(options.volume.path + ": is a polygon surface, no volume; delvox remesh is for those");
+    throw OptionError(path + ": is a polygon surface, no volume; delvox remesh is for those");
   }
-  if (options.input != InputKind::kEither) return;
-  options.input = polygons ? InputKind::kPolygons : InputKind::kVolume;
+  options.input = samples ? InputKind::kSamples : polygons ? InputKind::kPolygons : InputKind::kVolume;
+  if (samples) {
+    refuse(app, kOfVolumes, "is for volumes, and " + path + " holds samples");
+    if (options.algorithm == "delsurf2") {
+      throw OptionError("--algorithm delsurf2: is for smooth formulas and volumes, and " + path + " holds samples");
+    }
+    return;
+  }
+  refuse(app, kOfSamples, "is for scattered samples (.csv .tsv .txt .vtu)");
   if (!polygons) return;
-  for (const char* name : kOfVolumes) {
-    const CLI::Option* option = app.get_option_no_throw(name);
-    if (option == nullptr || option->count() == 0) continue;
-    throw OptionError(std::string(name) + ": is for volumes, and " + options.volume.path + " is a polygon surface");
-  }
+  refuse(app, kOfIsosurfaces, "is for volumes, and " + path + " is a polygon surface");
+  refuse(app, kOfVolumes, "is for volumes, and " + path + " is a polygon surface");
 }
 
 }  // namespace delvox::tools

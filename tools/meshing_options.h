@@ -9,13 +9,14 @@
 #include "delvox/core/run.h"
 #include "image_material_flags.h"
 #include "mesh_output.h"
+#include "samples_input.h"
 #include "verbs.h"
 #include "volume_input.h"
 
 namespace delvox::tools {
 
 enum class MeshKind { kSurface, kTets };
-enum class InputKind { kVolume, kPolygons, kEither };
+enum class InputKind { kVolume, kPolygons, kEither, kSamples };
 
 inline constexpr double kDefaultMinDihedralDegrees = 15;
 inline constexpr double kDefaultEpsilon = 0.08;  ///< of theorem 14.2
@@ -26,6 +27,7 @@ struct MeshingOptions {
   InputKind input = InputKind::kVolume;
   VolumeInputOptions volume;             ///< its path names the input, whatever its kind
   IsosurfaceOptions isosurface;
+  SamplesInputOptions samples;
   std::string implicit;                  ///< a formula in place of a volume; empty: none
   std::string box;                       ///< "x0:x1,y0:y1,z0:z1", where the formula is looked at
   std::string algorithm = "delsurf";     ///< of surfaces: delsurf, delsurf1 or delsurf2
@@ -56,7 +58,8 @@ struct MeshingOptions {
 /// Binds all flags of the verb to `options`. pre: options.kind and options.input are set.
 void add_meshing_options(CLI::App& app, MeshingOptions& options);
 
-/// Once arguments are parsed: decides by its extension what the input is, where it may be either. Throws OptionError if
+/// Once arguments are parsed: decides what the input is, by its extension where it may be either; a .vtu holds samples if
+/// a field, an interpolation or an isovalue is asked for. Throws OptionError if
 /// a flag was given that has no sense for it, or if another verb is for it.
 void decide_input(const CLI::App& app, MeshingOptions& options);
 

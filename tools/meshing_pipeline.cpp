@@ -35,9 +35,10 @@ namespace {
 std::unique_ptr<MeshingDomain> make_domain(const MeshingOptions& options) {
   if (!options.implicit.empty()) return make_formula_domain(options);
   if (options.volume.path.empty()) {
-    throw OptionError("what to mesh? Give a VOLUME, or --implicit and --box; see --help");
+    throw OptionError("what to mesh? Give a VOLUME or samples, or --implicit and --box; see --help");
   }
   if (options.input == InputKind::kPolygons) return make_polygon_domain(options);
+  if (options.input == InputKind::kSamples) return make_samples_domain(options);
   return make_volume_domain(options);
 }
 

@@ -8,14 +8,12 @@
 #include "meshing_domain.h"
 #include "signals.h"
 #include "sizes.h"
+#include "verdict.h"
 
 namespace delvox::tools {
 namespace {
 
 constexpr double kSizesPerDiagonal = 60;
-// Repair of the topology ends at this part of the size; from that one on it gives up if the smaller the balls, the more
-// of them it takes.
-constexpr double kMinBallRadius = 0.001, kThinBallRadius = 0.25;
 
 class PolygonDomain final : public MeshingDomain {
  public:
@@ -49,21 +47,14 @@ class PolygonDomain final : public MeshingDomain {
   double guess_size(std::size_t tets) const override {
     return tools::guess_size(tets, inside_mm3_);
   }
-  double min_ball_radius(const SizeField& size) const override { return kMinBallRadius * size.minimum(); }
-  double thin_ball_radius(const SizeField& size) const override { return kThinBallRadius * size.minimum(); }
+  double min_ball_radius(const SizeField& size) const override { return polygon_ball_radii(size).min; }
+  double thin_ball_radius(const SizeField& size) const override { return polygon_ball_radii(size).thin; }
 
   std::unique_ptr<Oracle> make_oracle(const SizeField&, Stopwatch&) override { return oracle_->clone(); }
   void finish(Mesh&) const override {}
 
   std::optional<Unmet> shortfall(const CheckReport& check) const override {
-    const SurfaceTopology mesh{check.statistics.surface_components, check.statistics.euler};
-    const SurfaceTopology input = *oracle_->topology();
-    if (mesh == input) return std::nullopt;
-    return Unmet{"topology", 1, frame_(box_.center()),
-                 plural(mesh.components, "component") + " and Euler number " + std::to_string(mesh.euler) +
-                     ", the input has " + std::to_string(input.components) + " and " + std::to_string(input.euler) +
-                     ": parts thinner than the size",
-                 false};
+    return topology_shortfall(check, oracle_->topology(), "the input", frame_(box_.center()));
   }
   std::string advice() const override {
     return "where the surface is sharper than a right angle or thinner than the size, try a smaller --size, or see "

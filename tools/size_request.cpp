@@ -79,7 +79,7 @@ SizeField SizeRequest::on(const Oracle& oracle, double spacing, double epsilon, 
     return scaled(local_feature_size(oracle, spacing, kUntilCancelled), epsilon, least, most);
   }
   const auto* smooth = dynamic_cast<const SmoothOracle*>(&oracle);
-  if (smooth == nullptr) throw OptionError("--size curvature: a polygon surface has none; --size lfs is for those too");
+  if (smooth == nullptr) throw OptionError("--size curvature: neither polygon surfaces nor samples have one; --size lfs is for those too");
   return scaled(curvature_radius(*smooth, spacing, kUntilCancelled), epsilon, least, most);
 }
 

@@ -15,6 +15,7 @@
 #include "formula_flags.h"
 #include "mesh_output.h"
 #include "report_json.h"
+#include "samples_input.h"
 #include "signals.h"
 #include "validators.h"
 #include "verdict.h"
@@ -28,8 +29,9 @@ namespace {
 struct Options {
   std::vector<std::string> meshes;
   VolumeInputOptions volume;
-  std::string surface, implicit, box;
+  std::string surface, samples, implicit, box;
   std::string interpolation = "trilinear";
+  SamplesInputOptions samples_input;
   IsosurfaceOptions isosurface;
   Promises bounds;
   std::string border, frame, report;
@@ -51,8 +53,13 @@ void add_options(CLI::App& app, Options& options) {
   volume->type_name("VOLUME");
   auto* surface = app.add_option("--surface", options.surface, "Compare with this polygon surface");
   surface->excludes(volume)->type_name("SURFACE");
+  auto* samples = app.add_option("--samples", options.samples,
+                                 "Compare with the isosurface of these scattered samples, linear between them");
+  samples->excludes(volume)->excludes(surface)->type_name("SAMPLES");
+  add_field_option(app, options.samples_input);
+  app.get_option("--field")->needs(samples);
   add_formula_options(app, options.implicit, options.box, "Compare with a formula");
-  app.get_option("--implicit")->excludes(volume)->excludes(surface);
+  app.get_option("--implicit")->excludes(volume)->excludes(surface)->excludes(samples);
   app.add_option("--interpolation", options.interpolation,
                  "What the volume's samples are taken for: trilinear, or the quintic B-spline that --algorithm delsurf2 "
                  "meshes, of up to 32 x 32 x 32 voxels")
@@ -61,7 +68,7 @@ void add_options(CLI::App& app, Options& options) {
       ->capture_default_str()
       ->type_name("HOW");
   add_isovalue_options(app, options.isosurface);
-  app.get_option("--iso")->needs(volume)->default_str("what the mesh carries");
+  app.get_option("--iso")->default_str("what the mesh carries");
   app.add_flag("--same-topology", options.same_topology,
                "Components and Euler number must equal those of what the meshes are compared with");
   add_bound(app, "--min-angle", options.bounds.min_angle_degrees, "Lower bound on the angles of triangles", "DEG");
@@ -101,23 +108,20 @@ Promises bounds_for(const MeshInfo& info, const Promises& given) {
   return bounds;
 }
 
-// Of the volume, the isosurface that a mesh is held to.
-Isosurface isosurface_for(const std::string& path, const MeshInfo& info, const Volume& volume, const Options& options) {
-  Isosurface surface{info.isovalue.value_or(0), info.below || options.isosurface.below};
-  if (!options.isosurface.iso.empty()) {
-    const FrameChange frame(volume.header().frame, options.frame);
-    const ChosenIsosurface chosen = choose_isosurface(*source_of(volume), options.isosurface, frame);
-    check_isosurface(chosen, volume);
-    surface.isovalue = chosen.surface.isovalue;
-  } else if (!info.isovalue) {
-    throw OptionError(path + ": carries no isovalue; give --iso");
-  }
-  return surface;
+// The isovalue that a mesh carries, unless --iso chooses another one: choose(frame).
+template <class Choose>
+Isosurface isosurface_of(const std::string& path, const MeshInfo& info, Frame frame, const Options& options,
+                         const Choose& choose) {
+  if (options.isosurface.iso.empty() && !info.isovalue) throw OptionError(path + ": carries no isovalue; give --iso");
+  const bool below = info.below || options.isosurface.below;
+  if (options.isosurface.iso.empty()) return {*info.isovalue, below};
+  return {choose(FrameChange(frame, options.frame)).surface.isovalue, below};
 }
 
 // What a mesh is held to, in so far as it takes making.
 struct Reference {
   std::optional<Volume> volume;  // as meshed: small components taken out
+  std::optional<SurfaceMesh> polygons;  // the isosurface of samples
   std::shared_ptr<SmoothFunction> spline;
   std::optional<ImplicitFunction> function;
 };
@@ -143,7 +147,11 @@ void compare_with_spline(const Volume& volume, const Isosurface& surface, Refere
 
 void compare_with_volume(const std::string& path, const MeshInfo& info, const Volume& volume, const Options& options,
                          Reference& reference, CheckOptions& check) {
-  const Isosurface surface = isosurface_for(path, info, volume, options);
+  const Isosurface surface = isosurface_of(path, info, volume.header().frame, options, [&](const FrameChange& frame) {
+    const ChosenIsosurface chosen = choose_isosurface(*source_of(volume), options.isosurface, frame);
+    check_isosurface(chosen, volume);
+    return chosen;
+  });
   if (options.interpolation == "quintic") return compare_with_spline(volume, surface, reference, check);
   reference.volume = filter_volume(volume, surface, options.isosurface, info.promises.size.value_or(0)).volume;
   check.volume = &*reference.volume;
@@ -165,10 +173,11 @@ void to_frame(Frame of_other, Mesh& mesh, const Options& options) {
   if (of_other != Frame::kUnknown) FrameChange(own, of_other == Frame::kRas ? "ras" : "lps").apply(mesh);
 }
 
-// What meshes are compared with: one of the two, or nothing.
+// What meshes are compared with: one of the three, or nothing.
 struct Original {
   std::optional<Volume> volume;
   std::optional<SurfaceMesh> surface;
+  std::optional<SampleField> samples;
 };
 
 Original read_original(const Options& options, const Console& console) {
@@ -178,6 +187,7 @@ Original read_original(const Options& options, const Console& console) {
     tell_warnings(original.volume->header(), options.volume, console);
   }
   if (!options.surface.empty()) original.surface = surface_of(read_mesh(options.surface).mesh);
+  if (!options.samples.empty()) original.samples = read_samples_input(options.samples, options.samples_input).field;
   return original;
 }
 
@@ -193,9 +203,17 @@ CheckReport check_file(const std::string& path, const Original& original, const 
   check.require_same_topology = options.same_topology;
   Reference reference;
   if (!options.implicit.empty()) compare_with_formula(options, reference, check);
-  if (original.surface) {
-    to_frame(original.surface->info.frame, file.mesh, options);
-    check.surface = &*original.surface;
+  const SurfaceMesh* polygons = original.surface ? &*original.surface : nullptr;
+  if (const auto& samples = original.samples) {
+    const Frame frame = samples->samples().frame;
+    reference.polygons = samples_isosurface(
+        *samples, isosurface_of(path, info_of(file.mesh), frame, options,
+                                [&](const FrameChange& to) { return choose_isosurface(*samples, options.isosurface, to); }));
+    polygons = &*reference.polygons;
+  }
+  if (polygons != nullptr) {
+    to_frame(polygons->info.frame, file.mesh, options);
+    check.surface = polygons;
   }
   if (const auto& volume = original.volume) {
     compare_with_volume(path, info_of(file.mesh), *volume, options, reference, check);
@@ -213,8 +231,12 @@ void run_check(const Verb& verb, const Arguments& arguments) {
   const ThreadLimit threads(app);
   if (!parse_arguments(app, arguments)) return;
 
-  if (options.same_topology && options.volume.path.empty() && options.surface.empty() && options.implicit.empty()) {
-    throw OptionError("--same-topology: as what? Give --volume, --surface or --implicit");
+  const bool compares_isosurface = !options.volume.path.empty() || !options.samples.empty();
+  if (options.same_topology && !compares_isosurface && options.surface.empty() && options.implicit.empty()) {
+    throw OptionError("--same-topology: as what? Give --volume, --samples, --surface or --implicit");
+  }
+  if (!options.isosurface.iso.empty() && !compares_isosurface) {
+    throw OptionError("--iso: of what? Give --volume or --samples");
   }
   for (const std::string& mesh : options.meshes) check_output(options.report, mesh);
   const Console console(options.console);

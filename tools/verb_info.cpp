@@ -1,11 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <filesystem>
+#include <functional>
 
 #include "console.h"
+#include "delvox/core/errors.h"
 #include "delvox/volume/histogram.h"
 #include "delvox/volume/voxel_topology.h"
 #include "format.h"
 #include "report_json.h"
+#include "samples_input.h"
 #include "signals.h"
 #include "text_histogram.h"
 #include "thread_limit.h"
@@ -19,7 +23,8 @@ constexpr double kPercents[] = {1, 5, 25, 50, 75, 95, 99};
 constexpr int kHistogramBins = 64;
 
 struct Options {
-  VolumeInputOptions volume;
+  VolumeInputOptions volume;  // its path names the input, samples too
+  SamplesInputOptions samples;
   bool below = false;
   ConsoleOptions console;
 };
@@ -39,7 +44,9 @@ struct Findings {
   std::vector<Suggestion> suggestions;
 };
 
-std::vector<Suggestion> suggest(const VolumeSource& source, const SampleStatistics& statistics, bool below) {
+using CountTopologies = std::function<std::vector<VoxelTopology>(const std::vector<Isosurface>&)>;
+
+std::vector<Suggestion> suggest(const SampleStatistics& statistics, bool below, const CountTopologies& count) {
   std::vector<Suggestion> suggestions;
   std::vector<Isosurface> surfaces;
   for (int classes = 2; classes <= 4; ++classes) {
@@ -52,20 +59,19 @@ std::vector<Suggestion> suggest(const VolumeSource& source, const SampleStatisti
     }
   }
   if (surfaces.empty()) return suggestions;
-  const std::vector<VoxelTopology> topologies = count_topologies(source, surfaces);
+  const std::vector<VoxelTopology> topologies = count(surfaces);
   for (std::size_t n = 0; n < suggestions.size(); ++n) suggestions[n].topology = topologies[n];
   return suggestions;
 }
 
-Findings find(const VolumeSource& source, bool below) {
-  const SampleStatistics statistics(source);
+Findings find(const SampleStatistics& statistics, bool below, const CountTopologies& count) {
   Findings findings;
   findings.low = statistics.min();
   findings.high = statistics.max();
   findings.warnings = statistics.warnings();
   findings.percentiles = statistics.percentiles(kPercents);
   findings.histogram = statistics.histogram(kHistogramBins);
-  findings.suggestions = suggest(source, statistics, below);
+  findings.suggestions = suggest(statistics, below, count);
   return findings;
 }
 
@@ -131,13 +137,85 @@ Json findings_json(const Findings& findings) {
 }
 
 void add_options(CLI::App& app, Options& options) {
-  app.add_option("VOLUME", options.volume.path, "The scan: .nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices")
+  app.add_option("VOLUME", options.volume.path,
+                 "The scan: .nii .nii.gz .hdr .inr .inr.gz .tif .json .vdb, a folder of slices; or scattered samples: .csv "
+                 ".tsv .txt with columns x, y, z and a value, .vtu with an array on its points")
       ->required();
   app.add_flag("--below", options.below, "Count components at or below each isovalue");
+  add_field_option(app, options.samples);
   add_reading_options(app, options.volume);
   add_preprocessing_options(app, options.volume);
   add_config_option(app);
   add_console_options(app, options.console, JsonFlag::kOffered);
+}
+
+bool holds_samples(const std::string& path) {
+  return is_samples_path(path) || std::filesystem::path(path).extension() == ".vtu";
+}
+
+void refuse_options(const CLI::App& app, const Options& options, bool samples) {
+  const auto refuse = [&](const char* name, const std::string& why) {
+    if (app.count(name) > 0) throw OptionError(std::string(name) + ": " + why);
+  };
+  if (!samples) return refuse("--field", "is for scattered samples (.csv .tsv .txt .vtu)");
+  for (const char* name : {"--spacing", "--volume-index", "--crop", "--resample", "--smooth"}) {
+    refuse(name, "is for volumes, and " + options.volume.path + " holds samples");
+  }
+}
+
+void tell_volume(const Options& options, const Console& console, Json json) {
+  const VolumeSourcePtr source = kept_if_small(open_input(options.volume, "").source);
+  const Findings findings = find(SampleStatistics(*source), options.below, [&](const std::vector<Isosurface>& surfaces) {
+    return count_topologies(*source, surfaces);
+  });
+  VolumeHeader header = source->header();
+  header.warnings.insert(header.warnings.end(), findings.warnings.begin(), findings.warnings.end());
+  if (console.json()) {
+    json["volume"] = to_json(header);
+    const Vector3 spacing = header.spacing();
+    json["volume"]["extent_mm"] = {header.dims[0] * spacing.x, header.dims[1] * spacing.y, header.dims[2] * spacing.z};
+    json.update(findings_json(findings));
+    console.machine_result(text_of(json));
+  }
+  console.result(header_text(options.volume.path, header) + findings_text(findings));
+}
+
+// The topologies are those of the linear interpolant.
+void tell_samples(const Options& options, const Console& console, Json json) {
+  const SamplesInput input = read_samples_input(options.volume.path, options.samples);
+  const SampleField& field = input.field;
+  const std::vector<float> values = rounded_values(field);
+  const Findings findings = find(SampleStatistics(values), options.below, [&](const std::vector<Isosurface>& surfaces) {
+    std::vector<VoxelTopology> topologies;
+    for (const Isosurface& surface : surfaces) {
+      throw_if_cancelled();
+      topologies.push_back(count_samples_topology(field, surface));
+    }
+    return topologies;
+  });
+  Box3 box;
+  for (const Point3& p : field.samples().points) box.extend(p);
+  if (console.json()) {
+    json["samples"] = {{"path", input.path},
+                       {"format", input.format},
+                       {"field", input.field_name},
+                       {"count", values.size()},
+                       {"merged", input.merged},
+                       {"tets", field.tet_count()},
+                       {"frame", to_string(field.samples().frame)},
+                       {"box", {to_json(box.min), to_json(box.max)}},
+                       {"hull_mm3", field.hull_mm3()},
+                       {"spacing_mm", field.spacing()}};
+    json.update(findings_json(findings));
+    console.machine_result(text_of(json));
+  }
+  std::string text = input.sentence() + "\n";
+  text += "box          " + point(box.min) + " to " + point(box.max) + " mm, frame " +
+          to_string(field.samples().frame) + "\n";
+  text += "hull         " + number(field.hull_mm3() / 1000, 5) + " ml, " + number(field.spacing()) +
+          " mm from sample to sample\n";
+  if (const std::string warning = input.warning(); !warning.empty()) text += "warning      " + warning + "\n";
+  console.result(text + findings_text(findings));
 }
 
 }  // namespace
@@ -150,19 +228,9 @@ void run_info(const Verb& verb, const Arguments& arguments) {
   if (!parse_arguments(app, arguments)) return;
 
   const Console console(options.console);
-  const VolumeSourcePtr source = kept_if_small(open_input(options.volume, "").source);
-  const Findings findings = find(*source, options.below);
-  VolumeHeader header = source->header();
-  header.warnings.insert(header.warnings.end(), findings.warnings.begin(), findings.warnings.end());
-  if (console.json()) {
-    Json json = run_header(verb, arguments);
-    json["volume"] = to_json(header);
-    const Vector3 spacing = header.spacing();
-    json["volume"]["extent_mm"] = {header.dims[0] * spacing.x, header.dims[1] * spacing.y, header.dims[2] * spacing.z};
-    json.update(findings_json(findings));
-    console.machine_result(text_of(json));
-  }
-  console.result(header_text(options.volume.path, header) + findings_text(findings));
+  const bool samples = holds_samples(options.volume.path);
+  refuse_options(app, options, samples);
+  (samples ? tell_samples : tell_volume)(options, console, run_header(verb, arguments));
 }
 
 }  // namespace delvox::tools

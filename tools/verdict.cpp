@@ -37,6 +37,17 @@ std::string describe(const Unmet& unmet) {
   return text;
 }
 
+std::optional<Unmet> topology_shortfall(const CheckReport& check, const std::optional<SurfaceTopology>& input,
+                                        const std::string& who, const Point3& where) {
+  const SurfaceTopology mesh{check.statistics.surface_components, check.statistics.euler};
+  if (!input || mesh == *input) return std::nullopt;
+  return Unmet{"topology", 1, where,
+               plural(mesh.components, "component") + " and Euler number " + std::to_string(mesh.euler) + ", " + who +
+                   " has " + std::to_string(input->components) + " and " + std::to_string(input->euler) +
+                   ": parts thinner than the size",
+               false};
+}
+
 std::string verdict(const RunReport& run, const CheckReport& check, const std::string& advice) {
   std::vector<std::string> faults;
   if (run.stop != StopReason::kFinished) faults.push_back(to_string(run.stop));

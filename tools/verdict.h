@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "delvox/check/check_mesh.h"
 #include "delvox/core/run.h"
+#include "delvox/oracle/oracle.h"
 #include "delvox/volume/ties.h"
 
 namespace delvox::tools {
@@ -17,6 +19,11 @@ std::string verdict(const CheckReport& check);
 
 /// What to do about samples that equal the isovalue: take one between sample values. Empty if there are none.
 std::string advice_on(const Ties& ties);
+
+/// What a mesh that holds all its promises lacks of its input, if that counts its own topology. `who`: "the input".
+/// `where`: some place, in the output frame.
+std::optional<Unmet> topology_shortfall(const CheckReport& check, const std::optional<SurfaceTopology>& input,
+                                        const std::string& who, const Point3& where);
 
 /// "topology: 3 places, first near x, y, z (reason)".
 std::string describe(const Unmet& unmet);

@@ -3,42 +3,11 @@
 #include <string>
 
 #include "mesh_io/formats.h"
-#include "mesh_io/header_comment.h"
 #include "mesh_io/vtk_common.h"
-#include "mesh_io/vtu_data.h"
-#include "mesh_io/xml.h"
+#include "mesh_io/vtu_document.h"
 
 namespace delvox::mesh_io {
 namespace {
-
-const XmlNode& required(const Source& source, const XmlNode& parent, std::string_view name) {
-  const XmlNode* child = parent.child(name);
-  if (child == nullptr) {
-    source.fail("has no " + std::string(name) + " in its " + std::string(parent.name), "is it a VTU file?");
-  }
-  return *child;
-}
-
-/// The DataArray of that name, or null.
-const XmlNode* find_array(const XmlNode* parent, std::string_view name) {
-  if (parent == nullptr) return nullptr;
-  for (const XmlNode& child : parent->children) {
-    if (child.name == "DataArray" && child.attribute("Name") == name) return &child;
-  }
-  return nullptr;
-}
-
-void read_field_data(const Source& source, const XmlNode& grid, VtuArrays& arrays, MeshInfo& info) {
-  const XmlNode* fields = grid.child("FieldData");
-  if (fields == nullptr) return;
-  for (const XmlNode& array : fields->children) {
-    const std::string name(array.attribute("Name"));
-    if (array.name != "DataArray" || !name.starts_with("delvox_")) continue;
-    const std::vector<double> values = arrays.reals(array);
-    if (values.size() != 1) source.fail("its field " + in_quotes(name) + " does not hold one number");
-    read_info_field(name, values[0], info);
-  }
-}
 
 class PieceReader {
  public:
@@ -57,16 +26,8 @@ class PieceReader {
 
  private:
   void read_points(const XmlNode& piece) {
-    const XmlNode* points = piece.child("Points");
-    const XmlNode* array = points == nullptr ? nullptr : points->child("DataArray");
-    if (array == nullptr) source_.fail("has a piece without points");
-    if (array->attribute("type") == "Float32") mesh_.coordinate_error = kFloat32Error;
-    const std::vector<double> xyz = arrays_.reals(*array);
-    const std::string_view claimed = piece.attribute("NumberOfPoints");
-    if (xyz.size() % 3 != 0 || parse_integer(source_, trimmed(claimed)) != static_cast<std::int64_t>(xyz.size() / 3)) {
-      source_.fail("its points are not as many as it says");
-    }
-    for (std::size_t i = 0; i < xyz.size(); i += 3) mesh_.points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+    const std::vector<Point3> points = piece_points(source_, piece, arrays_, mesh_.coordinate_error);
+    mesh_.points.insert(mesh_.points.end(), points.begin(), points.end());
   }
 
   /// Calls take(name of the set, values) for each array whose name has that prefix.
@@ -122,7 +83,7 @@ class PieceReader {
   }
 
   void read_cells(const XmlNode& piece, std::int64_t first_point) {
-    const XmlNode& cells = required(source_, piece, "Cells");
+    const XmlNode& cells = required_child(source_, piece, "Cells");
     std::vector<std::int64_t> nodes = integers(cells, "connectivity");
     const std::vector<std::int64_t> offsets = integers(cells, "offsets"), types = integers(cells, "types");
     std::vector<std::int64_t> regions;
@@ -172,29 +133,11 @@ class PieceReader {
 }  // namespace
 
 RawMesh read_vtu(const Source& source) {
-  constexpr std::string_view kAppended = "<AppendedData";
-  const std::string_view bytes = source.bytes;
-  const std::size_t appended_tag = bytes.find(kAppended);
-  std::string_view appended;
-  bool appended_is_base64 = false;
-  if (appended_tag != std::string_view::npos) {
-    const std::size_t end = bytes.find('>', appended_tag);
-    const std::size_t underscore = bytes.find('_', end);
-    if (underscore == std::string_view::npos) source.fail("its appended data are missing");
-    appended = bytes.substr(underscore + 1);
-    appended_is_base64 = bytes.substr(appended_tag, end - appended_tag).find("base64") != std::string_view::npos;
-  }
-  const XmlNode document = parse_xml(source, bytes.substr(0, appended_tag));
-  const XmlNode& root = required(source, document, "VTKFile");
-  if (root.attribute("type") != "UnstructuredGrid") {
-    source.fail("holds " + in_quotes(root.attribute("type")) + ", not an UnstructuredGrid", "save it as VTU");
-  }
-  VtuArrays arrays(source, root, appended, appended_is_base64);
-  const XmlNode& grid = required(source, root, "UnstructuredGrid");
+  VtuDocument file = open_vtu(source);
   RawMesh mesh;
-  read_field_data(source, grid, arrays, mesh.info);
-  PieceReader reader(source, arrays, mesh);
-  for (const XmlNode& piece : grid.children) {
+  read_field_data(source, *file.grid, file.arrays, mesh.info);
+  PieceReader reader(source, file.arrays, mesh);
+  for (const XmlNode& piece : file.grid->children) {
     if (piece.name == "Piece") reader.read(piece);
   }
   return mesh;

@@ -20,7 +20,7 @@ only_in() {
 }
 
 only_in OpenVDB 'openvdb/|volume/volume_impl\.h' '^src/volume/|^src/oracle/(isosurface|segmentation|brick)[a-z_]*\.(h|cpp)$'
-only_in CGAL 'CGAL/|gmp' '^src/delaunay/|^src/oracle/polygon[a-z_]*\.(h|cpp)$'
+only_in CGAL 'CGAL/|gmp' '^src/delaunay/|^src/oracle/(polygon|samples)[a-z_]*\.(h|cpp)$'
 only_in GiNaC 'ginac/|cln/' '^src/oracle/formula_algebra\.cpp$'
 only_in libtiff 'tiff' '^src/volume/[a-z_]*tiff[a-z_]*\.(h|cpp)$'
 only_in HDF5 'hdf5\.h' '^src/mesh_io/hdf5_image\.cpp$'
