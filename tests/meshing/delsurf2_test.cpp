@@ -116,12 +116,27 @@ TEST(DelSurf2, MeshesCode) {
   EXPECT_EQ(test::topology_of(mesh).euler, 0);
 }
 
+/// A function whose second and third derivatives are hardly known.
+class Loose final : public SmoothFunction {
+ public:
+  explicit Loose(const char* formula) : function_(make_smooth_function(Formula(formula))) {}
+  void evaluate(const Point3& p, int order, double* results) const override { function_->evaluate(p, order, results); }
+  bool enclose(const IntervalBox& box, int order, Interval* results) const override {
+    const bool smooth = function_->enclose(box, order, results);
+    for (std::size_t i = kResults[1]; i < kResults[order]; ++i) results[i] = {-1e4, 1e4};
+    return smooth;
+  }
+
+ private:
+  std::unique_ptr<SmoothFunction> function_;
+};
+
 // Without them no search can tell zeros apart: the sample gets denser until none is needed, or the report says where.
 TEST(DelSurf2, WhatCannotBeDecidedIsToldOrRefined) {
   DelSurf2Options options = topology_only();
   options.control.limits.max_vertices = 3000;
   RunReport report;
-  const SurfaceMesh mesh = delsurf2(test::Loose(kTorus), kBox, options, report);
+  const SurfaceMesh mesh = delsurf2(Loose(kTorus), kBox, options, report);
   if (report.succeeded()) {
     test::expect_closed_manifold(mesh);
     EXPECT_EQ(test::topology_of(mesh).euler, 0);
