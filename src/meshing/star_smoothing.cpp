@@ -166,7 +166,7 @@ bool StarSmoothing::step_down(State& state, const Vector3& direction, double len
 }
 
 double StarSmoothing::improve(std::uint32_t vertex, Point3& place) {
-  if (!gather(vertex)) return 0;
+  if (mesh_.fixed(vertex) || !gather(vertex)) return 0;
   State state;
   if (!measure(mesh_.point(vertex), state, kInfinity)) return 0;
   const double before = state.shortfall;
