@@ -14,7 +14,7 @@ constexpr double kSpacing = 0.8;             // of the triangles' edges
 /// Of the edges of triangles on one facet to their distance from those on the other: such tets between them as have no
 /// corner on the segment are within a radius-edge ratio of 2.
 constexpr double kFlattest = 2.5;
-constexpr double kSteepest = 0.64;  // sine of the angle between a line and a facet that it rises from, about 40 degrees
+constexpr double kSteepest = 0.8;  // sine of the angle between a line and a facet that it rises from, about 53 degrees
 
 class Rings {
  public:
@@ -87,7 +87,9 @@ class Rings {
           if (std::abs(rise) > kSteepest || std::abs(rise) < 1e-3 || std::abs(rise) * along > length) continue;
           const Vector3 flat = p - c - rise * along * normal;
           const auto place = on_surface(c + (along / norm(flat)) * flat, 0.15 * rise * along * normal);
-          if (!place || segments_.encroached_by(*place) || !thinner_.has_room(*place, 0.7 * length)) continue;
+          if (!place || segments_.encroached_by(*place)) continue;
+          // As near as it is to the node itself, others may be.
+          if (!thinner_.has_room(*place, std::min(kSpacing * length, 0.99 * distance(*place, p)))) continue;
           thinner_.add(*place, kSpacing * length);
           points_.push_back(*place);
         }
