@@ -59,6 +59,7 @@ inline SurfaceMesh notched_cube() {
     const Point3 c = 0.25 * ((cube.points[t[0]] + cube.points[t[1]]) + (cube.points[t[2]] + cube.points[t[3]]));
     return c.x > 2.5 && c.x < 5 && c.z > 5;
   });
+  cube.boundary = boundary_of(cube.tets);
   return boundary_surface(cube);
 }
 
