@@ -194,6 +194,11 @@ std::optional<std::uint32_t> FeatureSegments::encroached_by(const Point3& p, std
   return most;
 }
 
+bool FeatureSegments::may_split(std::uint32_t segment) const {
+  constexpr double kFewestParts = 8;
+  return length(segment) >= std::min(2 * shortest_, 2 / kFewestParts * lines_[segments_[segment].line].length());
+}
+
 std::uint32_t FeatureSegments::split(std::uint32_t segment) {
   grid_.remove(segment, middle(segment), 0.5 * kMargin * length(segment));
   const Segment whole = segments_[segment];

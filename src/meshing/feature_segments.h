@@ -26,7 +26,7 @@ class FeatureSegments {
   };
 
   /// Segments are no longer than 0.9 of the size along them, and 0.9 of `longest`. None is cut into parts shorter than
-  /// `shortest`, mm; what would have to be is left encroached.
+  /// `shortest`, mm, unless may_split() says so; what would have to be is left encroached.
   FeatureSegments(FeatureEdges edges, const SizeField& size, double longest, double shortest);
 
   std::size_t node_count() const { return nodes_.size(); }
@@ -45,7 +45,8 @@ class FeatureSegments {
 
   /// The segment that p encroaches on most, if it does on any other than those at `node`.
   std::optional<std::uint32_t> encroached_by(const Point3& p, std::uint32_t node = ~0u) const;
-  bool may_split(std::uint32_t segment) const { return length(segment) >= 2 * shortest_; }
+  /// Not into parts shorter than the shortest, nor, of a line that is as short itself, into more than a few.
+  bool may_split(std::uint32_t segment) const;
   /// Halves it: returns the new node. Its number stays that of one half. pre: may_split().
   std::uint32_t split(std::uint32_t segment);
 

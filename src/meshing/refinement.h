@@ -20,7 +20,6 @@
 #include "meshing/refinement_lane.h"
 #include "meshing/repair_effort.h"
 #include "meshing/run_budget.h"
-#include "meshing/surface_verdict.h"
 
 namespace delvox {
 
