@@ -35,6 +35,8 @@ class MeshingDomain {
     (void)layers;
     return std::nullopt;
   }
+  /// The polygon surface that is meshed, in the input's frame, or null.
+  virtual const SurfaceMesh* polygons() const { return nullptr; }
   /// A size for a run that was given none, mm, and where it comes from.
   virtual double default_size() const = 0;
   virtual std::string origin_of_default_size() const = 0;

@@ -79,6 +79,15 @@ void add_shape_options(CLI::App& app, MeshingOptions& options) {
                  "180. Where a surface is not smooth it cannot be had: that is counted and told")
       ->check(angle_above_zero(180))
       ->type_name("DEG");
+  if (options.input != InputKind::kVolume) {
+    app.add_option("--feature-angle", options.feature_angle_degrees,
+                   "Keep the sharp edges of a polygon surface: those between two facets whose normals are more than "
+                   "this apart (0: the facets lie in one plane; 90: the edges of a cube), above 0 and up to 180. They "
+                   "become edges of the mesh, and their corners nodes. Triangles and tets with a node on them are held "
+                   "to sizes, but not to the other bounds: they are counted apart (default: edges are not kept)")
+        ->check(angle_above_zero(180))
+        ->type_name("DEG");
+  }
   app.add_option(
          "--min-ball-radius", options.min_ball_radius,
          "Topology, folds, deviation, roughness and --restricted all leave surface balls this small alone, mm (default: "
@@ -201,6 +210,20 @@ void add_volume_options(CLI::App& app, MeshingOptions& options) {
   add_component_options(app, options.isosurface);
 }
 
+/// Sharp edges are those of polygons, and take the usual way of refinement.
+void check_feature_angle(const MeshingOptions& options, bool polygons) {
+  if (!options.feature_angle_degrees) return;
+  if (!options.implicit.empty() || !polygons) {
+    throw OptionError("--feature-angle: keeps sharp edges of polygon surfaces, and " +
+                      (options.implicit.empty() ? options.volume.path + " is none" : "--implicit is a formula"));
+  }
+  const char* const with = options.start == "persistent"       ? "--start persistent"
+                           : options.restricted == "all"       ? "--restricted all"
+                           : options.algorithm != "delsurf" ? "--algorithm delsurf1"
+                                                               : nullptr;
+  if (with != nullptr) throw OptionError("--feature-angle: not with " + std::string(with));
+}
+
 }  // namespace
 
 void add_meshing_options(CLI::App& app, MeshingOptions& options) {
@@ -227,9 +250,11 @@ void add_meshing_options(CLI::App& app, MeshingOptions& options) {
 
 void decide_input(const CLI::App& app, MeshingOptions& options) {
   check_algorithm(app, options);
-  if (options.input == InputKind::kPolygons) return;
   const std::string& path = options.volume.path;
-  const bool samples = holds_samples(app, path), polygons = !samples && is_mesh_path(path);
+  const bool samples = options.input != InputKind::kPolygons && holds_samples(app, path);
+  const bool polygons = options.input == InputKind::kPolygons || (!samples && is_mesh_path(path));
+  check_feature_angle(options, polygons);
+  if (options.input == InputKind::kPolygons) return;
   if (options.input == InputKind::kVolume && polygons) {
     throw OptionError(path + ": is a polygon surface, no volume; delvox remesh is for those");
   }

@@ -44,6 +44,7 @@ struct MeshingOptions {
   std::optional<double> min_dihedral_degrees;  ///< 0: slivers are left; unset: the default, promised only if it is met
   std::optional<double> max_deviation;   ///< mm
   std::optional<double> max_roughness_degrees;
+  std::optional<double> feature_angle_degrees;  ///< of polygon surfaces; unset: sharp edges are not kept
   std::optional<double> min_ball_radius;  ///< mm; default: the domain's
   std::string border = "close";          ///< close or open
   std::string frame;                     ///< ras, lps, or empty: the input's own

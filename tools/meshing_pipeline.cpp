@@ -133,6 +133,7 @@ SurfaceCriteria MeshingRun::surface_criteria(const SizeField& size) const {
   surface.max_deviation = options_.max_deviation.value_or(std::numeric_limits<double>::infinity());
   surface.min_ball_radius = options_.min_ball_radius.value_or(domain_->min_ball_radius(size));
   surface.max_roughness_degrees = options_.max_roughness_degrees.value_or(180);
+  surface.feature_angle_degrees = options_.feature_angle_degrees.value_or(180);
   surface.min_smooth_radius = options_.min_ball_radius.value_or(domain_->min_smooth_radius(size));
   surface.thin_ball_radius = domain_->thin_ball_radius(size);
   return surface;
@@ -399,6 +400,12 @@ void MeshingRun::check() {
   throw_if_cancelled();
   CheckOptions cheap;
   cheap.level = CheckLevel::kCheap;
+  std::optional<Mesh> polygons;  // in the frame of the mesh
+  if (const SurfaceMesh* surface = domain_->polygons(); surface != nullptr && options_.feature_angle_degrees) {
+    domain_->frame().apply(polygons.emplace(*surface));
+    cheap.surface = &std::get<SurfaceMesh>(*polygons);
+    cheap.feature_angle_degrees = options_.feature_angle_degrees;
+  }
   check_report_ = watch_.timed("checking", [&] { return check_mesh(mesh_, cheap); });
   if (run_report_.succeeded()) {
     if (auto unmet = domain_->shortfall(check_report_)) run_report_.unmet.push_back(std::move(*unmet));

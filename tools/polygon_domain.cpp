@@ -24,7 +24,7 @@ class PolygonDomain final : public MeshingDomain {
     const MeshFile file = watch.timed("reading", [&] { return read_mesh(path); });
     throw_if_cancelled();
     format_ = file.format;
-    const SurfaceMesh surface = surface_of(file.mesh);
+    SurfaceMesh surface = surface_of(file.mesh);
     counts_ = describe_counts(Mesh(surface));
     console.note(path + ": " + format_ + ", " + counts_);
     own_frame_ = surface.info.frame;
@@ -37,11 +37,13 @@ class PolygonDomain final : public MeshingDomain {
     for (const Triangle& triangle : surface.triangles) {
       for (std::uint32_t v : triangle) box_.extend(surface.points[v]);
     }
+    if (options_.feature_angle_degrees) surface_ = std::move(surface);
     oracle_->for_each_patch([this](const DomainPatch& patch) { inside_mm3_ += patch.inside_mm3; });
   }
 
   FrameChange frame() const override { return frame_; }
   Frame own_frame() const override { return own_frame_; }
+  const SurfaceMesh* polygons() const override { return surface_ ? &*surface_ : nullptr; }
   double default_size() const override { return box_.diagonal() / kSizesPerDiagonal; }
   std::string origin_of_default_size() const override { return "1/60 of the surface's diagonal"; }
   double guess_size(std::size_t tets) const override {
@@ -78,6 +80,7 @@ class PolygonDomain final : public MeshingDomain {
   Frame own_frame_ = Frame::kUnknown;
   FrameChange frame_;
   Box3 box_;
+  std::optional<SurfaceMesh> surface_;  // if it is to be compared with
   double inside_mm3_ = 0;
   std::unique_ptr<Oracle> oracle_;
 };

@@ -46,7 +46,8 @@ Json to_json(const Promises& promises) {
           {"grade", optional_json(promises.grade)},
           {"max_deviation_mm", optional_json(promises.max_deviation)},
           {"max_roughness_degrees", optional_json(promises.max_roughness_degrees)},
-          {"min_dihedral_degrees", optional_json(promises.min_dihedral_degrees)}};
+          {"min_dihedral_degrees", optional_json(promises.min_dihedral_degrees)},
+          {"feature_angle_degrees", optional_json(promises.feature_angle_degrees)}};
 }
 
 Json to_json(const Check& check) {
@@ -114,6 +115,20 @@ void add_to(Json& json, const SurfaceDistances& d) {
                {"mesh_to_surface_mean_mm", d.mesh_to_surface_mean_mm},
                {"surface_to_mesh_max_mm", d.surface_to_mesh_max_mm},
                {"surface_to_mesh_mean_mm", d.surface_to_mesh_mean_mm}});
+}
+
+Json to_json(const FeatureComparison& c) {
+  return {{"angle_degrees", c.angle_degrees},
+          {"sharp_edges", c.sharp_edges},
+          {"length_mm", c.length_mm},
+          {"missing_mm", c.missing_mm},
+          {"distance_mm", c.distance_mm},
+          {"kept_edges", c.kept_edges},
+          {"triangles", c.triangles},
+          {"triangles_below_min_angle", c.below_min_angle},
+          {"tets", c.tets},
+          {"tets_above_radius_edge", c.above_radius_edge},
+          {"tets_below_min_dihedral", c.below_min_dihedral}};
 }
 
 Json to_json(const Estimate& e) {
@@ -231,6 +246,7 @@ Json to_json(const CheckReport& report) {
                                   {"surface_euler", report.surface_comparison->euler}};
     add_to(json["surface_comparison"], report.surface_comparison->distances);
   }
+  if (report.feature_comparison) json["features"] = to_json(*report.feature_comparison);
   if (!report.solver_limits.empty()) {
     json["solver_limits"] = Json::array();
     for (const SolverLimit& limit : report.solver_limits) json["solver_limits"].push_back(to_json(limit));

@@ -36,6 +36,7 @@ struct Options {
   Promises bounds;
   std::string border, frame, report;
   bool same_topology = false;
+  std::optional<double> feature_angle_degrees;
   ConsoleOptions console;
 
   Options() { isosurface.iso.clear(); }
@@ -67,6 +68,13 @@ void add_options(CLI::App& app, Options& options) {
       ->needs(volume)
       ->capture_default_str()
       ->type_name("HOW");
+  app.add_option("--feature-angle", options.feature_angle_degrees,
+                 "Sharp edges of --surface, those between two facets whose normals are more than this apart, must be "
+                 "edges of the mesh; cells with a node on them are counted apart, and bounds on shapes do not hold there "
+                 "(default: what the mesh carries)")
+      ->check(angle_above_zero(180))
+      ->needs(surface)
+      ->type_name("DEG");
   add_isovalue_options(app, options.isosurface);
   app.get_option("--iso")->default_str("what the mesh carries");
   app.add_flag("--same-topology", options.same_topology,
@@ -200,6 +208,7 @@ CheckReport check_file(const std::string& path, const Original& original, const 
   check.bounds = bounds_for(info_of(file.mesh), options.bounds);
   if (!options.border.empty()) check.open_border = options.border == "open";
   check.coordinate_error = file.coordinate_error;
+  check.feature_angle_degrees = options.feature_angle_degrees;
   check.require_same_topology = options.same_topology;
   Reference reference;
   if (!options.implicit.empty()) compare_with_formula(options, reference, check);

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 
 #include "check/crossing_triangles.h"
 #include "check/element_quality.h"
+#include "check/feature_checks.h"
 #include "check/function_checks.h"
 #include "check/gradation.h"
 #include "check/point_checks.h"
@@ -66,6 +68,7 @@ class MeshChecker {
         info_(tets_ ? tets_->info : surface_->info),
         options_(options),
         bounds_(options.bounds.value_or(info_.promises)),
+        feature_angle_(options.feature_angle_degrees ? options.feature_angle_degrees : bounds_.feature_angle_degrees),
         builder_(report_) {}
 
   CheckReport run() {
@@ -78,6 +81,7 @@ class MeshChecker {
     if (tets_ != nullptr) check_tets();
     triangles_ = tets_ != nullptr ? std::span<const Triangle>(tet_topology_.boundary) : surface_->triangles;
     check_surface_topology();
+    check_features();
     check_bounds();
     if (options_.level == CheckLevel::kFull) {
       builder_.count("no crossing triangles", check::crossing_triangles(points_, triangles_));
@@ -201,18 +205,87 @@ class MeshChecker {
     }
   }
 
+  /// Where sharp edges are, and whether the mesh keeps them: what touches them is not held to bounds on shapes.
+  void check_features() {
+    if (!feature_angle_) return;
+    const std::vector<Edge>& named = tets_ != nullptr ? tets_->features : surface_->features;
+    if (options_.surface != nullptr) {
+      features_ = check::find_features(points_, triangles_, *options_.surface, *feature_angle_, precision_);
+      check::Extreme missing{features_->missing_mm, features_->missing.count > 0, features_->missing.where,
+                             features_->missing.count};
+      builder_.bounded("sharp edges kept", missing, 0.0, "mm missing");
+    } else if (!named.empty()) {
+      features_ = check::named_features(points_.size(), named);
+      builder_.not_applicable("sharp edges kept", "those of which surface? Those that the mesh names are taken");
+    } else {
+      builder_.not_applicable("sharp edges kept", "the surface that they are those of is needed to find them: without it "
+                                                  "bounds on shapes, which hold away from them, are not looked at");
+      bounds_.min_angle_degrees = bounds_.radius_edge = bounds_.min_dihedral_degrees = std::nullopt;
+      bounds_.max_roughness_degrees = std::nullopt;
+      if (tets_ != nullptr) quality_ = check::measure_tets(points_, tets_->tets, bounds_, precision_);
+      return;
+    }
+    report_.feature_comparison = FeatureComparison{*feature_angle_,         features_->sharp_edges, features_->length_mm,
+                                                   features_->missing_mm, features_->distance_mm, features_->edges.size()};
+  }
+
+  /// Those that touch sharp edges, or those that do not.
+  template <class Cell>
+  std::vector<Cell> at_features(std::span<const Cell> cells, bool touching) const {
+    std::vector<Cell> result;
+    std::copy_if(cells.begin(), cells.end(), std::back_inserter(result), [&](const Cell& cell) {
+      return touching == std::any_of(cell.begin(), cell.end(), [&](std::uint32_t v) { return features_->touched[v] != 0; });
+    });
+    return result;
+  }
+
+  void check_triangles_at_features(check::TriangleQuality& triangles) {
+    const auto away = at_features(triangles_, false), there = at_features(triangles_, true);
+    triangles.angle = check::measure_triangles(points_, away, bounds_, precision_).angle;
+    const check::Extreme angle = check::measure_triangles(points_, there, bounds_, precision_).angle;
+    builder_.bounded("angle at sharp edges", angle, std::nullopt, "deg",
+                     note_at_features(there.size(), "triangles", angle.violations));
+    report_.feature_comparison->triangles = there.size();
+    report_.feature_comparison->below_min_angle = angle.violations;
+  }
+
+  void check_tets_at_features() {
+    const std::span<const Tet> tets = tets_->tets;
+    const auto there = at_features(tets, true);
+    const check::TetQuality away = check::measure_tets(points_, at_features(tets, false), bounds_, precision_);
+    const check::TetQuality own = check::measure_tets(points_, there, bounds_, precision_);
+    quality_.radius_edge = away.radius_edge;
+    quality_.dihedral = away.dihedral;
+    builder_.bounded("radius-edge at sharp edges", own.radius_edge, std::nullopt, "",
+                     note_at_features(there.size(), "tets", own.radius_edge.violations));
+    builder_.bounded("dihedral at sharp edges", own.dihedral, std::nullopt, "deg",
+                     note_at_features(there.size(), "tets", own.dihedral.violations));
+    FeatureComparison& comparison = *report_.feature_comparison;
+    comparison.tets = there.size();
+    comparison.above_radius_edge = own.radius_edge.violations;
+    comparison.below_min_dihedral = own.dihedral.violations;
+  }
+
+  static std::string note_at_features(std::size_t count, const std::string& what, std::size_t beyond) {
+    return "of " + std::to_string(count) + " " + what + ", " + std::to_string(beyond) +
+           " beyond the bound, which does not hold there";
+  }
+
   void check_bounds() {
-    const check::TriangleQuality triangles = check::measure_triangles(points_, triangles_, bounds_, precision_);
+    check::TriangleQuality triangles = check::measure_triangles(points_, triangles_, bounds_, precision_);
     builder_.count("no degenerate triangles", triangles.degenerate);
+    if (features_) check_triangles_at_features(triangles);
     builder_.bounded("angle", triangles.angle, bounds_.min_angle_degrees, "deg");
     builder_.bounded("size", triangles.circumradius, bounds_.size, "mm",
                      "circumradius, the least radius that the surface ball can have");
-    builder_.bounded("roughness", check::measure_roughness(points_, triangles_, bounds_, precision_),
+    const std::vector<Edge> kept = features_ ? features_->edges : std::vector<Edge>();
+    builder_.bounded("roughness", check::measure_roughness(points_, triangles_, bounds_, precision_, kept),
                      bounds_.max_roughness_degrees, "deg");
     report_.statistics.angle_degrees = triangles.angles;
     report_.statistics.edge_mm = triangles.edges;
     if (bounds_.max_deviation) builder_.not_applicable("deviation", "needs the volume");
     if (tets_ == nullptr) return;
+    if (features_) check_tets_at_features();
     builder_.bounded("radius-edge", quality_.radius_edge, bounds_.radius_edge, "");
     builder_.bounded("cell size", quality_.circumradius, bounds_.cell_size, "mm");
     check_gradation();
@@ -258,7 +331,9 @@ class MeshChecker {
   const std::vector<Point3>& points_;
   const MeshInfo& info_;
   const CheckOptions& options_;
-  const Promises bounds_;
+  Promises bounds_;
+  const std::optional<double> feature_angle_;
+  std::optional<check::KeptFeatures> features_;
   CheckReport report_;
   ReportBuilder builder_;
   Precision precision_;

@@ -82,6 +82,23 @@ std::string text_of(const SurfaceDistances& d, const char* surface) {
                 d.surface_to_mesh_mean_mm);
 }
 
+std::string text_of(const FeatureComparison& c) {
+  std::string text;
+  if (c.sharp_edges > 0) {
+    text += format("sharp edges (normals more than %g deg apart): %zu of the surface, %.6g mm, followed by %zu edges to "
+                   "within %.3g mm",
+                   c.angle_degrees, c.sharp_edges, c.length_mm, c.kept_edges, c.distance_mm);
+    text += c.missing_mm > 0 ? format("; %.6g mm missing\n", c.missing_mm) : "\n";
+  }
+  text += format("at sharp edges, where bounds on shapes do not hold: %zu triangles, %zu of them below the angle", c.triangles,
+                 c.below_min_angle);
+  if (c.tets > 0) {
+    text += format("; %zu tets, %zu above the radius-edge ratio, %zu below the dihedral angle", c.tets, c.above_radius_edge,
+                   c.below_min_dihedral);
+  }
+  return text + "\n";
+}
+
 std::string text_of(const VoxelComparison& c) {
   std::string text = format("voxels: surface components %zu, inside components %zu, cavities %zu, Euler number %ld\n",
                             c.voxels.surface_components, c.voxels.inside_components, c.voxels.cavities, c.voxels.euler);
@@ -99,6 +116,7 @@ std::string to_text(const CheckReport& report) {
   text += text_of(report.statistics);
   if (!report.solver_limits.empty()) text += text_of(report.solver_limits);
   if (report.comparison) text += text_of(*report.comparison);
+  if (report.feature_comparison) text += text_of(*report.feature_comparison);
   if (report.surface_comparison) text += text_of(report.surface_comparison->distances, "surface");
   return text + (report.all_hold() ? "every check holds\n" : "NOT every check holds\n");
 }

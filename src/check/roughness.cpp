@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "check/feature_checks.h"
 #include "check/incidence.h"
 
 namespace delvox::check {
@@ -25,20 +26,19 @@ Side side_of(const std::vector<Point3>& points, const Triangle& t) {
 }  // namespace
 
 Extreme measure_roughness(const std::vector<Point3>& points, std::span<const Triangle> triangles,
-                          const Promises& bounds, Precision precision) {
+                          const Promises& bounds, Precision precision, const std::vector<Edge>& kept) {
   const auto parts = map_shared_simplices<Extreme, 3>(
       points.size(), triangles, [](const Triangle& t, int i) { return edge_key(t[i], t[i == 2 ? 0 : i + 1]); },
       [&](std::span<const Incidence> edge, Extreme& worst) {
         if (edge.size() != 2) return;
         const Triangle& one = triangles[edge[0].item() / 3];
+        const std::uint32_t from = edge[0].item() % 3, to = from == 2 ? 0 : from + 1;
+        if (is_kept(kept, one[from], one[to])) return;
         const Side a = side_of(points, one), b = side_of(points, triangles[edge[1].item() / 3]);
         const double cosine_side = edge[0].flipped() == edge[1].flipped() ? -1 : 1;  // as if consistently oriented
         const double degrees =
             std::atan2(norm(cross(a.normal, b.normal)), cosine_side * dot(a.normal, b.normal)) * kDegrees;
-        keep_largest(worst, degrees, [&] {
-          const std::uint32_t from = edge[0].item() % 3, to = from == 2 ? 0 : from + 1;
-          return midpoint(points[one[from]], points[one[to]]);
-        });
+        keep_largest(worst, degrees, [&] { return midpoint(points[one[from]], points[one[to]]); });
         if (!bounds.max_roughness_degrees) return;
         const double slack = (a.tilt + b.tilt) * precision.displacement_mm * kDegrees;
         worst.violations += !(degrees <= *bounds.max_roughness_degrees * (1 + 1e-9) + slack);

@@ -20,13 +20,14 @@ const std::vector<CellId>& RestrictedDelaunay::incident_cells(VertexId vertex) c
   return own.around;
 }
 
-void RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on) {
+std::vector<VertexId> RestrictedDelaunay::insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on) {
   const auto heedless = [&go_on] {
     go_on();
     return true;
   };
-  insert_all(seeds, VertexKind::kSurface, heedless);
+  std::vector<VertexId> vertices = insert_all(seeds, VertexKind::kSurface, heedless);
   created_ = describe_since(0);
+  return vertices;
 }
 
 std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Point3>& points, const GoOn& go_on) {

@@ -32,8 +32,9 @@ class RestrictedDelaunay {
   explicit RestrictedDelaunay(const Oracle& oracle);
 
   /// Inserts points of the surface in spatial order; all cells count as created. go_on() is asked now and then, so that
-  /// it may throw; what it says is not heeded: with fewer seeds there would be components without any.
-  void insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on = always_go_on);
+  /// it may throw; what it says is not heeded: with fewer seeds there would be components without any. Returns their
+  /// vertices, kNone for points that are there already.
+  std::vector<VertexId> insert_seeds(const std::vector<Point3>& seeds, const GoOn& go_on = always_go_on);
 
   /// Inserts points inside the domain that lie in no computed surface ball and on no vertex, in spatial order: many at
   /// once, labels being asked for at the end only. Ends early when go_on() says so. Returns their vertices, kNone for

@@ -196,7 +196,7 @@ Mesh RawMesh::finish(const Source& source) && {
   if (info.unit == LengthUnit::kMetre) {
     for (Point3& p : points) p = kMmPerMetre * p;
   }
-  if (tets.empty()) return SurfaceMesh{std::move(points), std::move(triangles), info};
+  if (tets.empty()) return SurfaceMesh{std::move(points), std::move(triangles), info, {}};
   if (!regions.empty() && regions.size() != tets.size()) source.fail("region does not match its tets");
   TetMesh mesh;
   mesh.sets = finished_sets(source, renumbered);

@@ -19,6 +19,8 @@ constexpr NumberField kNumbers[] = {
      [](MeshInfo& i) -> std::optional<double>& { return i.promises.max_roughness_degrees; }},
     {"delvox_min_dihedral_degrees",
      [](MeshInfo& i) -> std::optional<double>& { return i.promises.min_dihedral_degrees; }},
+    {"delvox_feature_angle_degrees",
+     [](MeshInfo& i) -> std::optional<double>& { return i.promises.feature_angle_degrees; }},
 };
 
 struct FlagField {

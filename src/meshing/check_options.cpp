@@ -17,9 +17,16 @@ void check_criteria(const SurfaceCriteria& criteria) {
   if (!(criteria.max_roughness_degrees > 0 && criteria.max_roughness_degrees <= 180)) {
     throw OptionError("max-roughness must be above 0 and at most 180 degrees");
   }
+  if (!(criteria.feature_angle_degrees > 0 && criteria.feature_angle_degrees <= 180)) {
+    throw OptionError("feature-angle must be above 0 and at most 180 degrees");
+  }
   if (!(criteria.min_smooth_radius >= 0)) throw OptionError("the smallest radius of Smooth must not be negative");
   if (!(criteria.min_ball_radius >= 0)) throw OptionError("the smallest ball radius must not be negative");
   if (!(criteria.thin_ball_radius >= 0)) throw OptionError("the thin ball radius must not be negative");
+}
+
+void refuse_features(const SurfaceCriteria& criteria, const std::string& algorithm) {
+  if (criteria.feature_angle_degrees < 180) throw OptionError("feature-angle: sharp edges are not kept by " + algorithm);
 }
 
 void check_criteria(const TetCriteria& criteria) {
@@ -41,6 +48,7 @@ Promises promises_of(const SurfaceCriteria& criteria) {
   if (std::isfinite(criteria.size.maximum())) promises.size = criteria.size.maximum();
   if (std::isfinite(criteria.max_deviation)) promises.max_deviation = criteria.max_deviation;
   if (criteria.max_roughness_degrees < 180) promises.max_roughness_degrees = criteria.max_roughness_degrees;
+  if (criteria.feature_angle_degrees < 180) promises.feature_angle_degrees = criteria.feature_angle_degrees;
   return promises;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "delvox/core/mesh.h"
 #include "delvox/core/run.h"
 #include "delvox/meshing/criteria.h"
@@ -11,6 +13,9 @@ void check_criteria(const SurfaceCriteria& criteria);
 void check_criteria(const TetCriteria& criteria);
 /// Throws OptionError unless a bound on folds is from 0 to 90 degrees.
 void check_min_fold(double degrees);
+
+/// Throws OptionError if sharp edges are to be kept.
+void refuse_features(const SurfaceCriteria& criteria, const std::string& algorithm);
 
 /// The criteria as promises; size fields promise their maximum.
 Promises promises_of(const SurfaceCriteria& criteria);

@@ -1,5 +1,7 @@
 #include "delvox/meshing/delsurf.h"
 
+#include <limits>
+
 #include "meshing/check_options.h"
 #include "meshing/extract.h"
 #include "meshing/refinement.h"
@@ -12,7 +14,7 @@ SurfaceMesh finished_surface(Refinement& refinement, const SurfaceCriteria& crit
   refinement.budget().end_stage();
   refinement.report_unmet();
   refinement.retire();
-  SurfaceMesh mesh = extract_surface(refinement.delaunay());
+  SurfaceMesh mesh = extract_surface(refinement.delaunay(), refinement.feature_edges());
   mesh.info.promises = promises_of(criteria);
   withdraw_unmet(report, mesh.info.promises);
   mesh.info.complete = report.succeeded();
@@ -31,6 +33,7 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
   RunBudget& budget = refinement.budget();
 
   budget.begin_stage("seeds");
+  refinement.keep_features(std::numeric_limits<double>::infinity(), false);
   refinement.start();  // step 1
   do {
     do {
@@ -46,6 +49,7 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
 // triangles to delete.
 SurfaceMesh delsurf1(const Oracle& oracle, const DelSurfOptions& options, RunReport& report) {
   check_criteria(options.surface);
+  refuse_features(options.surface, "delsurf1");
   report = RunReport{};
   Refinement refinement(oracle, options.surface, options.control, options.variant, report);
   RunBudget& budget = refinement.budget();

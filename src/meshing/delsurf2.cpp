@@ -196,6 +196,7 @@ void TopologyDrivenRefinement::report_unmet() {
 // DelSurf2(Sigma), book section 14.2.2, with Quality of 14.4.
 SurfaceMesh delsurf2(const SmoothFunction& h, const Box3& box, const DelSurf2Options& options, RunReport& report) {
   check_criteria(options.surface);
+  refuse_features(options.surface, "delsurf2");
   report = RunReport{};
   RunBudget budget(options.control, report);
   budget.begin_stage("cover");

@@ -20,6 +20,7 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
   RunBudget& budget = refinement.budget();
 
   budget.begin_stage("seeds");
+  refinement.keep_features(options.tets.cell_size.minimum(), true);
   refinement.start();  // step 1
   const auto repair_surface = [&] {
     budget.begin_stage("topology");
@@ -45,7 +46,8 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
 
   refinement.report_unmet();
   refinement.retire();
-  TetMesh mesh = extract_tets(refinement.delaunay(), refinement.deep() ? &*refinement.deep() : nullptr);  // step 8
+  TetMesh mesh = extract_tets(refinement.delaunay(), refinement.deep() ? &*refinement.deep() : nullptr,
+                              refinement.feature_edges());  // step 8
   mesh.info.promises = promises_of(options.surface, options.tets);
   withdraw_unmet(report, mesh.info.promises);
   mesh.info.complete = report.succeeded();

@@ -85,6 +85,12 @@ std::vector<Triangle> numbered_triangles(const RestrictedDelaunay& delaunay, con
   return triangles;
 }
 
+std::vector<Edge> numbered_edges(const Numbering& number, const std::vector<std::array<VertexId, 2>>& edges) {
+  std::vector<Edge> result;
+  for (const auto& [a, b] : edges) result.push_back({number(a), number(b)});
+  return result;
+}
+
 void add_inside(const RestrictedDelaunay& delaunay, const Numbering& number, const std::vector<std::size_t>& first,
                 TetMesh& mesh) {
   for_each_chunk(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -125,7 +131,7 @@ void add_deep(const DeepLattice& deep, const Numbering& number, std::size_t firs
 
 }  // namespace
 
-SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay) {
+SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay, const std::vector<std::array<VertexId, 2>>& features) {
   SurfaceMesh mesh;
   Numbering number(delaunay);
   const std::vector<FacetId> triangles = outer_triangles(delaunay);
@@ -134,10 +140,12 @@ SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay) {
   }
   mesh.points = number.count(0);
   mesh.triangles = numbered_triangles(delaunay, number, triangles);
+  mesh.features = numbered_edges(number, features);
   return mesh;
 }
 
-TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep) {
+TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep,
+                     const std::vector<std::array<VertexId, 2>>& features) {
   TetMesh mesh;
   Numbering number(delaunay);
   const std::vector<std::size_t> first = use_inside(delaunay, number);
@@ -148,6 +156,7 @@ TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep
   add_inside(delaunay, number, first, mesh);
   if (deep != nullptr) add_deep(*deep, number, first.back(), mesh);
   mesh.boundary = numbered_triangles(delaunay, number, outer_triangles(delaunay));
+  mesh.features = numbered_edges(number, features);
   mesh.on_surface.assign(mesh.points.size(), 0);
   for (const Triangle& triangle : mesh.boundary) {
     for (std::uint32_t vertex : triangle) mesh.on_surface[vertex] = 1;

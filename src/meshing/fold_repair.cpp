@@ -14,6 +14,9 @@ bool Refinement::repair_folds(double min_fold_degrees) {
   const std::uint32_t new_from = std::exchange(folds_from_, delaunay_.next_stamp());
   for (const Fold& fold : sharp_folds(delaunay_, min_fold_degrees, new_from)) {
     if (!budget_left()) return inserted;
+    const bool alive = delaunay_.alive(fold.sides[0].facet.cell, fold.sides[0].stamp) &&
+                       delaunay_.alive(fold.sides[1].facet.cell, fold.sides[1].stamp);
+    if (!alive || kept_edge(fold.sides[0].facet, fold.sides[1].facet)) continue;
     inserted |= split_fold(fold);
   }
   return inserted;

@@ -19,6 +19,7 @@ void Refinement::start() {
   report_.components = seeds.components;
   watch_ = LandmarkWatch(oracle_.landmarks(surface_.size, go_on));
   if (variant_.start == Start::kPersistent) return insert_persistent_triangles(seeds);
+  if (features_) return insert_seeds_beside_features(seeds, go_on);
   delaunay_.insert_seeds(seeds.points, go_on);
   enqueue_created();
 }

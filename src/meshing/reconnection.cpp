@@ -52,6 +52,7 @@ bool Reconnection::find_ring(std::uint32_t a, std::uint32_t b) {
 
 // The triangles at edge ab of the boundary give way to two at the edge between the ends of the open ring.
 bool Reconnection::flip_boundary(std::uint32_t a, std::uint32_t b, Change& change) {
+  if (mesh_.fixed_edge(a, b)) return false;
   const std::uint32_t first = ring_.front(), last = ring_.back();
   if (mesh_.fan(a).size() < 4 || mesh_.fan(b).size() < 4 || mesh_.has_boundary_edge(first, last)) return false;
   change.old_triangles = {mesh_.boundary_triangle(a, b, first), mesh_.boundary_triangle(a, b, last)};

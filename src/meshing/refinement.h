@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "delvox/meshing/variant.h"
 #include "delvox/oracle/oracle.h"
 #include "meshing/deep_lattice.h"
+#include "meshing/feature_segments.h"
 #include "meshing/landmark_watch.h"
 #include "meshing/persistent_triangle.h"
 #include "meshing/pieces.h"
@@ -32,6 +34,9 @@ class Refinement {
   Refinement(const Oracle& oracle, const SurfaceCriteria& surface, const RunControl& control, const Variant& variant,
              RunReport& report);
 
+  /// Sharp edges of the domain are to be kept, if the criteria say so, in segments shorter than `longest`; `solid`:
+  /// of tets. Throws OptionError if the domain can have none. To be called before start().
+  void keep_features(double longest, bool solid);
   /// Step 1: seeds on every component, or a persistent triangle on each. Throws NothingToMesh if there is no surface.
   void start();
 
@@ -43,9 +48,12 @@ class Refinement {
   /// If there is no triangle to refine, though the surface is there: inserts what makes one, for each component if it
   /// has a persistent triangle. True if anything was inserted.
   bool mend_inadequate();
-  /// Step 5, then landmarks; neither once step 5 has turned out to be hopeless. Before that, mend_inadequate().
+  /// Step 5, then sharp edges, then landmarks; neither once step 5 has turned out to be hopeless. Before that, mend_inadequate().
   /// True if anything was inserted.
-  bool repair() { return mend_inadequate() || (!effort_.hopeless() && (repair_topology() || repair_landmarks())); }
+  bool repair() {
+    return mend_inadequate() ||
+           (!effort_.hopeless() && (repair_topology() || repair_features() || repair_landmarks()));
+  }
   /// Step 4 of DelSurf, step 6 of DelTetSurf: one vertex of each persistent triangle that has more than one; once none
   /// has, Quality begins. False if there was nothing left to do.
   bool delete_persistent_vertex();
@@ -68,6 +76,8 @@ class Refinement {
   void retire();
 
   const RestrictedDelaunay& delaunay() const { return delaunay_; }
+  /// The edges that follow sharp edges of the domain.
+  std::vector<std::array<VertexId, 2>> feature_edges() const;
   /// The part of the mesh that is written down without being inserted, if any.
   const std::optional<DeepLattice>& deep() const { return deep_; }
   RunBudget& budget() { return budget_; }
@@ -122,9 +132,31 @@ class Refinement {
   std::optional<SurfaceBall> find_ball(FacetId facet, const Oracle& oracle) const;
   Verdict judge(FacetId facet, const SurfaceBall& ball) const;
   std::optional<VertexId> insert_surface_point(const Point3& p, CellId hint);
+  std::optional<VertexId> insert_on_surface(const Point3& p, CellId hint);
   void mark_dirty(FacetId facet);
   void mark_dirty(VertexId vertex);
   bool repair_umbrella(VertexId vertex);
+
+  // Sharp edges (feature_refinement.cpp)
+  enum class AtFeature { kClear, kLeave, kSplit };
+  void insert_seeds_beside_features(const Seeds& seeds, const GoOn& go_on);
+  void note_node(std::uint32_t node, VertexId vertex);
+  std::uint32_t node_of(VertexId vertex) const {
+    return vertex < node_of_vertex_.size() ? node_of_vertex_[vertex] : kNone;
+  }
+  /// Whether a facet or cell has a vertex on a sharp edge.
+  template <class Simplex>
+  bool touches_feature(Simplex simplex) const {
+    if (!features_) return false;
+    const auto& vertices = delaunay_.vertices(simplex);
+    return std::any_of(vertices.begin(), vertices.end(), [this](VertexId v) { return node_of(v) != kNone; });
+  }
+  bool kept_edge(FacetId one, FacetId other) const;
+  AtFeature at_feature(const Point3& p, bool exempt, std::uint32_t& segment) const;
+  std::optional<VertexId> split_feature(std::uint32_t segment);
+  bool covered(std::uint32_t segment) const;
+  bool repair_features();
+  bool repair_feature(std::uint32_t segment);
 
   // Repair (surface_refinement.cpp, landmark_repair.cpp)
   /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
@@ -192,17 +224,27 @@ class Refinement {
   // Tetrahedra (tet_refinement.cpp)
   bool bad(CellId cell) const;
   void look_at_tet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
+  bool leaves_to_features(const RefinementQueues::WaitingTet& waiting, const Point3& p, RefinementLane& lane,
+                          RefinementQueues& queues, bool alone);
   bool find_encroached_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const;
   bool find_new_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const;
 
   const Oracle& oracle_;
   SurfaceCriteria surface_;
+  SurfaceCriteria touching_;  // what triangles that touch sharp edges are held to
   Variant variant_;
   const TetCriteria* tet_criteria_ = nullptr;
   RunReport& report_;
   RunBudget budget_;
   RestrictedDelaunay delaunay_;
   std::optional<DeepLattice> deep_;
+
+  std::optional<FeatureSegments> features_;
+  bool solid_ = false;
+  std::vector<VertexId> vertex_of_node_;
+  std::vector<std::uint32_t> node_of_vertex_;  // kNone: of none; sharp edges' vertices are never removed
+  std::vector<std::uint32_t> uncovered_;  // segments given up
+  std::uint32_t features_from_ = 0;  // the next stamp when all segments were last seen to be covered or given up
 
   RandomStream random_;
   std::vector<PersistentTriangle> persistent_;

@@ -224,6 +224,21 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
     queues.pop_facet();
     return true;
   }
+  std::uint32_t segment = 0;
+  const double size = surface_.size(ball->center);
+  const bool exempt = ball->squared_radius <= size * size && touches_feature(facet);
+  const AtFeature at = at_feature(ball->center, exempt, segment);
+  if (at == AtFeature::kLeave) {
+    if (known == nullptr && delaunay_.bipolar(facet)) lane.judged.push_back({waiting, *ball, false});
+    queues.pop_facet();
+    return true;
+  }
+  if (at == AtFeature::kSplit) {
+    if (alone && !may_change) return false;
+    if (!alone) lane.aside.facets.push_back(waiting);
+    if (!alone || !budget_left() || !split_feature(segment)) queues.pop_facet();
+    return true;
+  }
   Star& star = lane.lane.star;
   delaunay_.evaluate(ball->center, facet.cell, worker, star);
   if (delaunay_.disturbs_aside(star.zone)) {

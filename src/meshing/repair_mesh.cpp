@@ -4,7 +4,15 @@
 
 namespace delvox {
 RepairMesh::RepairMesh(TetMesh& mesh)
-    : mesh_(mesh), stars_(mesh.points.size(), mesh.tets), fans_(mesh.points.size(), mesh.boundary) {}
+    : mesh_(mesh), stars_(mesh.points.size(), mesh.tets), fans_(mesh.points.size(), mesh.boundary) {
+  if (mesh.features.empty()) return;
+  fixed_.assign(mesh.points.size(), 0);
+  for (const Edge& edge : mesh.features) {
+    fixed_edges_.push_back({std::min(edge[0], edge[1]), std::max(edge[0], edge[1])});
+    for (std::uint32_t v : edge) fixed_[v] = 1;
+  }
+  std::sort(fixed_edges_.begin(), fixed_edges_.end());
+}
 
 bool RepairMesh::has_boundary_edge(std::uint32_t a, std::uint32_t b) const {
   const auto around = fan(a);
@@ -164,6 +172,9 @@ void RepairMesh::drop_unused_points() {
   }
   for (Triangle& triangle : mesh_.boundary) {
     for (std::uint32_t& v : triangle) v = number[v];
+  }
+  for (Edge& edge : mesh_.features) {
+    for (std::uint32_t& v : edge) v = number[v];
   }
 }
 

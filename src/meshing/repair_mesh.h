@@ -52,6 +52,11 @@ class RepairMesh {
   /// Triangles of the boundary at a vertex.
   std::span<const std::uint32_t> fan(std::uint32_t vertex) const { return fans_.of(vertex); }
   bool on_boundary(std::uint32_t vertex) const { return !fans_.of(vertex).empty(); }
+  /// Edges that follow sharp edges stay, and so do their ends.
+  bool fixed(std::uint32_t vertex) const { return vertex < fixed_.size() && fixed_[vertex] != 0; }
+  bool fixed_edge(std::uint32_t a, std::uint32_t b) const {
+    return std::binary_search(fixed_edges_.begin(), fixed_edges_.end(), Edge{std::min(a, b), std::max(a, b)});
+  }
   bool has_boundary_edge(std::uint32_t a, std::uint32_t b) const;
   static constexpr std::uint32_t kNone = ~0u;
   /// The tet on the other side of a face, or kNone.
@@ -96,6 +101,8 @@ class RepairMesh {
 
   TetMesh& mesh_;
   IncidenceLists stars_, fans_;
+  std::vector<std::uint8_t> fixed_;
+  std::vector<Edge> fixed_edges_;  // the lower number first, in order
   std::vector<std::uint32_t> free_tets_, free_triangles_, added_tets_, added_triangles_;
   std::vector<Step> journal_;
   bool on_trial_ = false;

@@ -44,6 +44,8 @@ class Builder {
     add_middles();
     if (oracle_ != nullptr) {
       collect_boundary();
+      for (const Edge& e : mesh_.features) features_.push_back({std::min(e[0], e[1]), std::max(e[0], e[1])});
+      std::sort(features_.begin(), features_.end());
       for (std::size_t i = 0; i < edges_.size(); ++i) curve(edges_[i]);
       straighten_where_needed();
     }
@@ -84,6 +86,7 @@ class Builder {
   const Oracle* oracle_;
   const std::size_t corner_count_;
   std::vector<BoundaryEdge> edges_;  ///< of the boundary, by middle
+  std::vector<Edge> features_;       ///< the lower number first, in order
   SecondOrderReport report_;
   const std::vector<Barycentric> tested_ = tested_points();
 };
@@ -136,6 +139,10 @@ void Builder::collect_boundary() {
 
 // The crossing of the line through the middle, along the normal, that is nearest to it.
 void Builder::curve(BoundaryEdge& edge) {
+  if (std::binary_search(features_.begin(), features_.end(), Edge{edge.a, edge.b})) {
+    edge.curved = true;  // sharp edges are straight: the middle lies on the surface
+    return;
+  }
   const Point3 middle = mesh_.points[edge.middle];
   const double reach = kReach * distance(mesh_.points[edge.a], mesh_.points[edge.b]);
   const double length = norm(edge.normal);

@@ -75,7 +75,7 @@ std::optional<FacetId> Refinement::facet_to_smooth(VertexId vertex) const {
     const SurfaceBall *a = delaunay_.ball(one), *b = delaunay_.ball(other);
     if (a == nullptr || b == nullptr) continue;  // the budget has left it unjudged
     if (std::max(a->squared_radius, b->squared_radius) <= smallest) continue;
-    if (roughness_degrees(delaunay_, one, other) <= bound) continue;
+    if (roughness_degrees(delaunay_, one, other) <= bound || kept_edge(one, other)) continue;
     return a->squared_radius < b->squared_radius ? other : one;
   }
   return std::nullopt;
@@ -91,7 +91,7 @@ void Refinement::report_roughness() {
     for (VertexId vertex : delaunay_.vertices(facet)) {
       if (std::exchange(met[vertex], 1) != 0) continue;
       for (const auto& [one, other] : edges_at(delaunay_, vertex)) {
-        if (roughness_degrees(delaunay_, one, other) <= surface_.max_roughness_degrees) continue;
+        if (roughness_degrees(delaunay_, one, other) <= surface_.max_roughness_degrees || kept_edge(one, other)) continue;
         ++count;
         where = delaunay_.point(vertex);
       }

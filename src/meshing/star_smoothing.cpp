@@ -177,7 +177,7 @@ double StarSmoothing::displace(std::uint32_t vertex, const Vector3& step, Point3
 }
 
 double StarSmoothing::improve(std::uint32_t vertex, Point3& place) {
-  if (!gather(vertex)) return 0;
+  if (mesh_.fixed(vertex) || !gather(vertex)) return 0;
   State state;
   if (!measure(mesh_.point(vertex), state, kInfinity)) return 0;
   const double before = state.shortfall;

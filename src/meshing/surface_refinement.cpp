@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "delvox/core/errors.h"
 #include "meshing/refinement.h"
@@ -22,6 +23,11 @@ Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, con
   constexpr double kRoundingError = 1e-7;
   surface_.min_ball_radius = std::max(surface_.min_ball_radius, kRoundingError * oracle.bounds().diagonal());
   surface_.min_smooth_radius = std::max(surface_.min_smooth_radius, surface_.min_ball_radius);
+  // Triangles at sharp edges are split as far as that makes no edge shorter than sqrt(2) times those at hand, so that
+  // others, whose centres may encroach on segments of up to sqrt(2) times their radius, never make these shorter.
+  const double kHalfRightAngle = std::asin(1 / (2 * std::numbers::sqrt2 * 1.02)) * 180 / std::numbers::pi;
+  touching_ = surface_;
+  touching_.min_angle_degrees = std::min(surface_.min_angle_degrees, kHalfRightAngle);
 }
 
 void Refinement::enqueue(const std::vector<CellId>& created, RefinementQueues& queues) const {
@@ -110,7 +116,8 @@ Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) co
     return ball.squared_radius <= left * left ? Verdict::kTwoFaced : Verdict::kSplit;
   }
   const auto v = delaunay_.vertices(facet);
-  switch (delvox::judge(surface_, delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), ball)) {
+  const SurfaceCriteria& criteria = touches_feature(facet) ? touching_ : surface_;
+  switch (delvox::judge(criteria, delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), ball)) {
     case SurfaceVerdict::kGood: return Verdict::kGood;
     case SurfaceVerdict::kSplit: return Verdict::kSplit;
     case SurfaceVerdict::kTooDeviant: break;
@@ -118,7 +125,13 @@ Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) co
   return Verdict::kTooDeviant;
 }
 
+/// Where p encroaches on a segment, that is split instead.
 std::optional<VertexId> Refinement::insert_surface_point(const Point3& p, CellId hint) {
+  const auto encroached = features_ ? features_->encroached_by(p) : std::nullopt;
+  return encroached ? split_feature(*encroached) : insert_on_surface(p, hint);
+}
+
+std::optional<VertexId> Refinement::insert_on_surface(const Point3& p, CellId hint) {
   const Star& star = evaluate(p, hint);
   if (star.duplicate) {
     ++stuck_;
@@ -188,7 +201,10 @@ bool Refinement::repair_umbrella(VertexId vertex) {
   }
   // What Voronoi edges have asked for makes small balls, hence work here, where nothing is as thin as all that.
   if (!edges_looked_at_) effort_.add(std::sqrt(largest.squared_radius), vertex_count());
-  if (!insert_surface_point(largest.center, facet.cell)) return false;
+  if (!insert_surface_point(largest.center, facet.cell)) {
+    unrepaired_.push_back(vertex);
+    return false;
+  }
   ++report_.topology_insertions;
   return true;
 }
@@ -213,6 +229,9 @@ void Refinement::report_unmet() {
            ? "the triangles at a vertex form no disk, and the smaller the balls, the more of them it takes"
            : "the triangles at a vertex form no disk at the smallest ball radius",
        true);
+  std::erase_if(uncovered_, [this](std::uint32_t segment) { return covered(segment); });
+  tell("sharp edges", uncovered_.size(), uncovered_.empty() ? where : features_->middle(uncovered_[0]),
+       "part of a sharp edge is no edge between two triangles at the smallest ball radius", true);
   tell("deviation", too_deviant_, deviant_place_, "not met at the smallest ball radius", false);
   report_roughness();
   std::erase_if(two_faced_, [this](const auto& left) {

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numbers>
 
 #include "core/parallel.h"
 #include "meshing/refinement.h"
@@ -36,7 +37,12 @@ bool Refinement::bad(CellId cell) const {
   const Circumsphere& sphere = delaunay_.sphere(cell);
   const double size = tet_criteria_->cell_size(sphere.center);
   if (sphere.squared_radius > size * size * (1 - 1e-12)) return true;
-  const double bound = tet_criteria_->radius_edge * tet_criteria_->radius_edge * (1 - 1e-9);
+  // At sharp edges as in Refinement::Refinement(): the surface point that goes in instead of a circumcentre is at least
+  // half as far from all vertices.
+  constexpr double kAtFeatures = 2 * std::numbers::sqrt2 * 1.02;
+  const double largest =
+      touches_feature(cell) ? std::max(tet_criteria_->radius_edge, kAtFeatures) : tet_criteria_->radius_edge;
+  const double bound = largest * largest * (1 - 1e-9);
   return sphere.squared_radius > bound * shortest_squared_edge(delaunay_, cell);
 }
 
@@ -53,8 +59,9 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   if (!delaunay_.disturbs_aside(star.zone) && !star.duplicate &&
       (find_encroached_ball(star, *worker.oracle, ball) || find_new_ball(star, *worker.oracle, ball))) {
     kind = VertexKind::kSurface;
-    delaunay_.evaluate(ball.center, star.zone.front(), worker, star);
   }
+  if (leaves_to_features(waiting, kind == VertexKind::kSurface ? ball.center : z, lane, queues, alone)) return;
+  if (kind == VertexKind::kSurface) delaunay_.evaluate(ball.center, star.zone.front(), worker, star);
   if (delaunay_.disturbs_aside(star.zone)) {
     if (alone) return insert_deep();
     lane.aside.tets.push_back(waiting);
@@ -67,6 +74,21 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   }
   lane.insertion = kind;
   lane.for_facet = false;
+}
+
+/// The point that is to be inserted for the last tet waiting may encroach on a segment. True if it does: that is split,
+/// and the tet waits on, or the tet is left as it is.
+bool Refinement::leaves_to_features(const RefinementQueues::WaitingTet& waiting, const Point3& p, RefinementLane& lane,
+                                    RefinementQueues& queues, bool alone) {
+  const Circumsphere& sphere = delaunay_.sphere(waiting.cell);
+  const double size = features_ ? tet_criteria_->cell_size(sphere.center) : 0;
+  std::uint32_t segment = 0;
+  const AtFeature at = at_feature(p, sphere.squared_radius <= size * size && touches_feature(waiting.cell), segment);
+  if (at == AtFeature::kClear) return false;
+  if (at == AtFeature::kSplit && alone && budget_left() && split_feature(segment)) return true;
+  if (at == AtFeature::kSplit && !alone) lane.aside.tets.push_back(waiting);
+  queues.tets.pop_back();
+  return true;
 }
 
 /// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z.

@@ -263,6 +263,7 @@ bool TrialRepair::insert_vertices(std::uint32_t tet) {
 std::optional<Point3> TrialRepair::split(const Edge& edge, Change& change, double& gain) const {
   change.clear();
   gain = 0;
+  if (mesh_.fixed_edge(edge[0], edge[1])) return std::nullopt;
   Vector3 outward{};
   for (std::uint32_t t : mesh_.fan(edge[0])) {
     const Triangle& tri = mesh_.triangle(t);

@@ -36,21 +36,23 @@ std::uint64_t key_of(const Cube& c) {
 
 }  // namespace
 
-bool PoissonThinner::keep(const Point3& p, double spacing) {
+bool PoissonThinner::has_room(const Point3& p, double spacing) {
   // Points come in clusters: whoever refused the last one likely refuses this one.
   if (last_near_ != kEnd) {
     const Kept& last = kept_[last_near_];
     if (squared_distance(last.point, p) < std::min(spacing * spacing, last.squared_spacing)) return false;
   }
+  return std::none_of(levels_.begin(), levels_.end(), [&](const Level& level) {
+    return near_kept(level, p, std::min(spacing, level.width));
+  });
+}
+
+void PoissonThinner::add(const Point3& p, double spacing) {
   Level& own = level_of(spacing);
-  for (const Level& level : levels_) {
-    if (near_kept(level, p, std::min(spacing, level.width))) return false;
-  }
   std::uint32_t& first = own.first_in(cube_of(p, own.width));
   last_near_ = static_cast<std::uint32_t>(kept_.size());
   kept_.push_back({p, spacing * spacing, first});
   first = last_near_;
-  return true;
 }
 
 PoissonThinner::Level& PoissonThinner::level_of(double spacing) {

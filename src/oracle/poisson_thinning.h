@@ -17,7 +17,15 @@ class PoissonThinner {
   explicit PoissonThinner(double usual) : usual_(usual) {}
 
   /// Whether the point is kept. pre: spacing > 0.
-  bool keep(const Point3& p, double spacing);
+  bool keep(const Point3& p, double spacing) {
+    if (!has_room(p, spacing)) return false;
+    add(p, spacing);
+    return true;
+  }
+  /// Whether keep() would keep the point.
+  bool has_room(const Point3& p, double spacing);
+  /// Keeps the point, whatever is near it.
+  void add(const Point3& p, double spacing);
 
  private:
   static constexpr std::uint32_t kEnd = FlatHash::kAbsent;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "delvox/core/sharp_edges.h"
 #include "oracle/clip_segment.h"
 #include "oracle/polygon_blocks.h"
 #include "oracle/polygon_seeds.h"
@@ -58,6 +59,8 @@ class PolygonOracle final : public Oracle {
     return SurfaceTopology{s.components, static_cast<long>(s.points.size()) - static_cast<long>(s.triangles.size() / 2)};
   }
 
+  std::optional<FeatureEdges> feature_edges(double degrees) const override;
+
   void for_each_patch(const std::function<void(const DomainPatch&)>& visit) const override;
 
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<PolygonOracle>(polygons_); }
@@ -86,6 +89,27 @@ void spread(const PolygonBlocks& blocks, const Point3& a, const Point3& b, const
     spread(blocks, a, b, midpoint(c, a), patches);
     spread(blocks, midpoint(c, a), b, c, patches);
   }
+}
+
+std::optional<FeatureEdges> PolygonOracle::feature_edges(double degrees) const {
+  const PolygonSurface& surface = polygons_->surface;
+  FeatureEdges result{surface.points, {}};
+  for (const SharpEdge& sharp : sharp_edges(surface.points, surface.triangles, degrees)) {
+    FeatureEdges::Edge edge{sharp.ends, {}, {}, surface.component_of[sharp.triangles[0]]};
+    const Vector3 along = surface.points[sharp.ends[1]] - surface.points[sharp.ends[0]];
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Triangle& t = surface.triangles[sharp.triangles[side]];
+      const Vector3 normal = cross(surface.points[t[1]] - surface.points[t[0]], surface.points[t[2]] - surface.points[t[0]]);
+      edge.normals[side] = (1 / norm(normal)) * normal;
+      // The facet lies to the left of its edges as it runs through them.
+      const std::size_t from = t[0] == sharp.ends[0] ? 0 : t[1] == sharp.ends[0] ? 1 : 2;
+      const double left = t[(from + 1) % 3] == sharp.ends[1] ? 1 : -1;
+      const Vector3 into = left * cross(edge.normals[side], along);
+      edge.into[side] = (1 / norm(into)) * into;
+    }
+    result.edges.push_back(edge);
+  }
+  return result;
 }
 
 void PolygonOracle::for_each_patch(const std::function<void(const DomainPatch&)>& visit) const {

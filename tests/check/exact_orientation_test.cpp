@@ -64,7 +64,7 @@ TEST(ExactCircumradius, ALatticeSliverIsNotTakenForALargeTet) {
                       {0.6097930846984093, -0.5896888125541216, 0.44008435019464676},
                       {0.7579412328465575, -0.44154066440597345, 0.29193620204649867}},
                      {{0, 1, 2, 3}},
-                     {}, {}, {}, {}, {}, {}, {}};
+                     {}, {}, {}, {}, {}, {}, {}, {}};
   CheckOptions options;
   options.bounds = Promises{};
   options.bounds->cell_size = 0.1657;

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "delvox/mesh_io/write_mesh.h"
-#include "support/test_meshes.h"
+#include "support/sharp_shapes.h"
 #include "tools/run_delvox.h"
 
 namespace delvox::test {
@@ -110,6 +110,70 @@ TEST_F(CliPolygons, SameInputAndOptionsGiveTheSameBytesForAnyNumberOfThreads) {
     for (const char* threads : {"1", "2"}) run({verb, sphere, "--threads", threads, "-o", folder_ / (std::string(threads) + ".vtu")});
     EXPECT_EQ(read_file(folder_ / "1.vtu"), read_file(folder_ / "2.vtu"));
   }
+}
+
+TEST_F(CliPolygons, SharpEdgesAreKeptAndWhatTouchesThemIsCountedApart) {
+  const std::string input = write("notch.off", notched_cube());
+  for (const char* verb : {"remesh", "tet"}) {
+    const std::string out = folder_ / (std::string(verb) + ".vtu");
+    const json report = run({verb, input, "--size", "1", "--feature-angle", "60", "-o", out});
+    const json& features = report["check"]["features"];
+    EXPECT_EQ(features["missing_mm"], 0);
+    EXPECT_NEAR(features["length_mm"].get<double>(), 12 * 10 - 2 * 2.5 + 4 * 10 + 4 * 5 + 2 * 2.5, 1e-9);
+    EXPECT_GT(features["kept_edges"].get<int>(), 150);
+    EXPECT_GT(features["triangles"].get<int>(), 300);
+    EXPECT_TRUE(features.contains("triangles_below_min_angle"));
+    EXPECT_NEAR(report["check"]["statistics"]["volume_mm3"].get<double>(), 1000 - 2.5 * 5 * 10, 1e-6);
+    EXPECT_EQ(report["mesh"]["promises"]["feature_angle_degrees"], 60);
+    // The mesh says at what angle; what it is compared with tells where.
+    const Outcome check = run_delvox({"check", out, "--surface", input, "--same-topology"});
+    EXPECT_EQ(check.code, 0) << check.out << check.err;
+    EXPECT_NE(check.out.find("sharp edges (normals more than 60 deg apart)"), std::string::npos) << check.out;
+    EXPECT_NE(check.out.find("at sharp edges, where bounds on shapes do not hold"), std::string::npos) << check.out;
+    EXPECT_EQ(run_delvox({"check", out, "--quiet"}).code, 0);
+  }
+}
+
+TEST_F(CliPolygons, CheckTellsWhatIsMissingOfSharpEdges) {
+  const std::string input = write("cube.off", boundary_surface(cube_mesh(1, 10))), out = folder_ / "out.vtu";
+  run({"remesh", input, "--size", "1", "-o", out});
+  EXPECT_EQ(run_delvox({"check", out, "--surface", input, "--quiet"}).code, 0);
+  expect_failure(5, {"check", out, "--surface", input, "--feature-angle", "60"}, {"out.vtu", "sharp edges kept"});
+}
+
+TEST_F(CliPolygons, SharpEdgesTurnWithTheFrame) {
+  SurfaceMesh cube = boundary_surface(cube_mesh(1, 10, {100, 50, 25}));
+  cube.info.frame = Frame::kRas;
+  const json report = run({"tet", write("cube.vtk", cube), "--size", "2", "--feature-angle", "60", "--frame", "lps", "-o",
+                           folder_ / "lps.vtu"});
+  EXPECT_EQ(report["check"]["features"]["missing_mm"], 0);
+}
+
+TEST_F(CliPolygons, SharpEdgesComeOutTheSameForAnyNumberOfThreads) {
+  const std::string input = write("cylinder.off", polygonal_cylinder(36, 5, 10));
+  for (const char* verb : {"remesh", "tet"}) {
+    for (const char* threads : {"1", "2", "4"}) {
+      run({verb, input, "--size", "0.8", "--feature-angle", "60", "--threads", threads, "-o",
+           folder_ / (std::string(threads) + ".vtu")});
+    }
+    EXPECT_EQ(read_file(folder_ / "1.vtu"), read_file(folder_ / "2.vtu"));
+    EXPECT_EQ(read_file(folder_ / "1.vtu"), read_file(folder_ / "4.vtu"));
+  }
+}
+
+TEST_F(CliPolygons, WhatSharpEdgesCannotGoWithIsAUsageError) {
+  const std::string cube = write("cube.off", boundary_surface(cube_mesh(1, 10))), out = folder_ / "out.vtu";
+  for (const char* angle : {"0", "-5", "181", "nan", "sharp"}) {
+    expect_failure(2, {"remesh", cube, "--feature-angle", angle, "-o", out}, {"--feature-angle"});
+  }
+  expect_failure(2, {"tet", folder_ / "scan.nii", "--feature-angle", "60", "-o", out}, {"--feature-angle", "scan.nii"});
+  expect_failure(2, {"tet", "--implicit", "x^2+y^2+z^2-1", "--box=-2:2,-2:2,-2:2", "--feature-angle", "60", "-o", out},
+                 {"--feature-angle", "--implicit"});
+  expect_failure(2, {"surface", folder_ / "scan.nii", "--feature-angle", "60", "-o", out}, {"--feature-angle"});
+  expect_failure(2, {"remesh", cube, "--feature-angle", "60", "--start", "persistent", "-o", out}, {"--start"});
+  expect_failure(2, {"tet", cube, "--feature-angle", "60", "--restricted", "all", "-o", out}, {"--restricted"});
+  expect_failure(2, {"remesh", cube, "--feature-angle", "60", "--algorithm", "delsurf1", "-o", out}, {"--algorithm"});
+  expect_failure(2, {"check", cube, "--feature-angle", "60"}, {"--feature-angle", "--surface"});
 }
 
 TEST_F(CliPolygons, TetsFindsASizeForAPolygonSurface) {

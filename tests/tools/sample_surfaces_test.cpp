@@ -13,6 +13,14 @@ TEST(SampleSurfaces, CleanClosedOnesAreMeshedRoundSharpPolygonalAndInsideOut) {
   }
 }
 
+TEST(SampleSurfaces, SharpEdgesOfMachinePartsAreKept) {
+  TemporaryFolder folder;
+  if (unpack_sample_surfaces(folder).empty()) GTEST_SKIP() << "skipped: libcgal-demo is not installed";
+  for (const char* name : {"fandisk.off", "joint.off", "rotor.off", "anchor_dense.off", "cross.off", "part.off"}) {
+    expect_meshed(folder.path() / "data/meshes" / name, folder, {"--feature-angle", "60"});
+  }
+}
+
 TEST(SampleSurfaces, OpenPinchedAndCrossingOnesAreRefused) {
   TemporaryFolder folder;
   if (unpack_sample_surfaces(folder).empty()) GTEST_SKIP() << "skipped: libcgal-demo is not installed";

@@ -28,6 +28,8 @@ struct CheckOptions {
   std::optional<double> node_tolerance_voxels;  ///< how far a surface node may lie from the isosurface;
                                                 ///< default: 1e-4 if the mesh carries an isovalue, else no bound
   const SurfaceMesh* surface = nullptr;  ///< compare with this polygon surface, in the same frame as the mesh
+  /// Edges of `surface` between facets whose normals are further apart must be kept; default: what the mesh carries.
+  std::optional<double> feature_angle_degrees;
   const ImplicitFunction* function = nullptr;  ///< compare with its zero set: a formula, the spline of a volume
   Affine3 function_to_world;                   ///< an isometry from its coordinates to those of the mesh
   bool require_same_topology = false;  ///< fail unless components and Euler number equal those of what it is compared with
@@ -106,6 +108,20 @@ struct SurfaceComparison {
   SurfaceDistances distances;
 };
 
+/// How a mesh keeps the sharp edges of the polygon surface, and the triangles and tets with a corner on these, which are
+/// held to no bound on their shapes.
+struct FeatureComparison {
+  double angle_degrees = 0;     ///< between facets' normals, above which an edge is sharp
+  std::size_t sharp_edges = 0;  ///< of the surface
+  double length_mm = 0;         ///< of these
+  double missing_mm = 0;        ///< of these, what no edge of the mesh follows
+  double distance_mm = 0;       ///< the largest from the rest to the mesh's edges
+  std::size_t kept_edges = 0;   ///< of the mesh
+  std::size_t triangles = 0, tets = 0;  ///< with a corner on them
+  /// Of these, those beyond the bounds.
+  std::size_t below_min_angle = 0, above_radius_edge = 0, below_min_dihedral = 0;
+};
+
 /// What a solver objects to by its own measure: reported, no promise of ours.
 struct SolverLimit {
   std::string solver, measure;
@@ -124,6 +140,7 @@ struct CheckReport {
   std::optional<VoxelComparison> comparison;
   std::vector<SolverLimit> solver_limits;  ///< of tets, at the full level
   std::optional<SurfaceComparison> surface_comparison;
+  std::optional<FeatureComparison> feature_comparison;
 
   bool all_hold() const;
   /// The check of that name, or null.

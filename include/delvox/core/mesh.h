@@ -27,6 +27,9 @@ inline constexpr int kTetEdges[6][2] = {{0, 1}, {1, 2}, {0, 2}, {0, 3}, {1, 3}, 
 /// Indices of the mid-side nodes of a quadratic tet, on its edges in the order of kTetEdges.
 using MidNodes = std::array<std::uint32_t, 6>;
 
+/// Indices of the two ends of an edge.
+using Edge = std::array<std::uint32_t, 2>;
+
 /// One face of a tet of a mesh.
 struct TetFace {
   std::uint32_t tet = 0;  ///< index
@@ -68,6 +71,8 @@ struct Promises {
   std::optional<double> max_deviation;         ///< circumcentre of triangle to surface ball centre, mm
   std::optional<double> max_roughness_degrees;  ///< largest angle between the normals of neighbouring triangles
   std::optional<double> min_dihedral_degrees;  ///< smallest dihedral angle of a tet
+  /// Edges of the input sharper than this are kept; cells that touch them are not held to bounds on their shapes.
+  std::optional<double> feature_angle_degrees;
   friend bool operator==(const Promises&, const Promises&) = default;
 };
 
@@ -88,6 +93,7 @@ struct SurfaceMesh {
   std::vector<Point3> points;
   std::vector<Triangle> triangles;
   MeshInfo info;
+  std::vector<Edge> features;  ///< edges that follow sharp edges of the input; empty if not known
 };
 
 /// A tetrahedral mesh with its boundary.
@@ -101,6 +107,7 @@ struct TetMesh {
   std::vector<MidNodes> mid_nodes;  ///< one per tet of second order; empty: first order
   std::vector<MeshSet> sets;
   std::vector<Material> materials;  ///< of regions, at most one each
+  std::vector<Edge> features;       ///< edges that follow sharp edges of the input; empty if not known
 };
 
 /// What readers return, and writers and the checker take.

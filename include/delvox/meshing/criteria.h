@@ -15,6 +15,7 @@ struct SurfaceCriteria {
   double min_ball_radius = 0;        ///< TopoDisk and deviation leave balls at or below this radius alone
   double min_smooth_radius = 0;      ///< Smooth and step 4 of DelTetSurf leave balls at or below it, or the above, alone
   double thin_ball_radius = 0;       ///< TopoDisk gives up once balls below it multiply as they halve; 0: never
+  double feature_angle_degrees = 180;  ///< edges of the domain between facets whose normals are further apart are kept
   bool topo_disk = true;             ///< false: skip step 3 of DelSurf; the surface need not be manifold
 };
 

@@ -39,6 +39,18 @@ struct SurfaceTopology {
   friend bool operator==(const SurfaceTopology&, const SurfaceTopology&) = default;
 };
 
+/// Sharp edges of a polygon surface.
+struct FeatureEdges {
+  struct Edge {
+    std::array<std::uint32_t, 2> ends;  ///< of points
+    std::array<Vector3, 2> into;     ///< in the planes of its two facets: unit vectors from the edge, at right angles to it
+    std::array<Vector3, 2> normals;  ///< of these facets, unit vectors
+    std::uint32_t component = 0;     ///< of the surface, as of seeds
+  };
+  std::vector<Point3> points;  ///< all different; of some no edge is sharp
+  std::vector<Edge> edges;
+};
+
 /// What of a domain lies in a small box, a few voxels wide: for estimates.
 struct DomainPatch {
   Point3 center;          ///< of the box, world
@@ -74,6 +86,11 @@ class Oracle {
   }
   /// The topology of the whole surface, if the domain can count it.
   virtual std::optional<SurfaceTopology> topology() const { return std::nullopt; }
+  /// The edges between facets whose normals are more than `degrees` apart; none if the surface is not made of facets.
+  virtual std::optional<FeatureEdges> feature_edges(double degrees) const {
+    (void)degrees;
+    return std::nullopt;
+  }
   /// Calls visit for boxes that hold the whole domain without overlap, in one fixed order; for none if the domain
   /// cannot tell. Takes a small part of the time of seeds().
   virtual void for_each_patch(const std::function<void(const DomainPatch&)>& visit) const { (void)visit; }
