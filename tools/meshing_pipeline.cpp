@@ -225,7 +225,7 @@ Mesh MeshingRun::run_mesher(const Oracle& oracle) {
       return deltetsurf(oracle, {surface, tet_criteria(1), control(), variant(), min_fold}, run_report_);
     }
     const auto mesher = options_.algorithm == "delsurf1" ? delsurf1 : delsurf;
-    return mesher(oracle, {surface, control(), variant()}, run_report_);
+    return mesher(oracle, {surface, control(), variant(), options_.surface_only_after_dense}, run_report_);
   });
 }
 
@@ -271,6 +271,20 @@ void MeshingRun::mesh_by_topology() {
   tell_effort();
 }
 
+// Of --surface-only-after-dense: what was inserted in each phase.
+std::string dense_sentence(const RunReport& report) {
+  if (report.dense_insertions == 0) {
+    return "nothing was inserted on the surface alone: the sample is not dense where it is to be refined";
+  }
+  std::string text = "inserted beside the seeds: " +
+                     grouped(report.surface_insertions + report.topology_insertions) +
+                     " in the triangulation of space, " + grouped(report.dense_insertions) + " on the surface alone";
+  if (report.dense_failures > 0) {
+    text += "; for " + plural(report.dense_failures, "place") + " the triangulation of space was made again";
+  }
+  return text;
+}
+
 void MeshingRun::tell_effort() const {
   for (const StageTime& stage : run_report_.stages) {
     console_.detail("stage " + stage.stage + ": " + number(stage.seconds, 3) + " s");
@@ -279,6 +293,7 @@ void MeshingRun::tell_effort() const {
                   grouped(run_report_.topology_insertions) + ", smooth " + grouped(run_report_.smooth_insertions) +
                   ", interior " + grouped(run_report_.interior_insertions) + "; removed " +
                   grouped(run_report_.removals));
+  if (options_.surface_only_after_dense) console_.note(dense_sentence(run_report_));
   if (sliver_report_) {
     console_.detail("slivers " + grouped(sliver_report_->slivers) + ": reconnected " +
                     grouped(sliver_report_->reconnections) + ", moved " + grouped(sliver_report_->moves) +
