@@ -162,12 +162,19 @@ bool SurfaceTriangulation::order_rim() {
   return true;
 }
 
-/// False if one of the triangles that join p to the rim has no ball, or none that is empty.
+/// False if one of the triangles that join p to the rim has no ball, or none that is empty. In the plane, its circle
+/// lies between those of the triangles on both sides of its edge, before, and is no larger than the larger: so it is
+/// here, nearly, or the surface is not what it seems.
 bool SurfaceTriangulation::find_balls(const Point3& p, const Oracle& oracle) {
+  constexpr double kMostGrowth = 2;  // of squared radii
   balls_.clear();
+  double largest = 0;
+  for (TriangleId t : zone_) largest = std::max(largest, faces_[t].squared_radius);
   for (std::size_t i = 0; i < rim_.size(); ++i) {
     const auto ball = ball_nearby(points_[rim_[i].from], points_[rim_[i].to], p, oracle);
     if (!ball || !empty_nearby(*ball, i)) return false;
+    const double known = std::max(largest, faces_[rim_[i].outer].squared_radius);
+    if (!(ball->squared_radius <= kMostGrowth * known)) return false;
     balls_.push_back(*ball);
   }
   return true;
