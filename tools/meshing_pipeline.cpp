@@ -21,6 +21,7 @@
 #include "meshing_sizes.h"
 #include "progress.h"
 #include "report_json.h"
+#include "run_effort.h"
 #include "set_rules.h"
 #include "signals.h"
 #include "size_search.h"
@@ -81,7 +82,6 @@ class MeshingRun {
   void name_sets();
   void mesh_at(const SizeField& size);
   void mesh_by_topology();
-  void tell_effort() const;
   ProcessForecast forecast_at(const Oracle& oracle, double factor) const;
   std::string uncounted() const;
   void look_ahead(const Oracle& oracle);
@@ -93,7 +93,6 @@ class MeshingRun {
   Mesh run_mesher(const Oracle& oracle);
   double min_dihedral_degrees() const;
   void remove_slivers_of(TetMesh& mesh, const Oracle& oracle);
-  void list_unmet_tets() const;
   double meshing_seconds() const;
   void check();
   void write();
@@ -258,7 +257,8 @@ void MeshingRun::mesh_at(const SizeField& size) {
   if (auto* tets = std::get_if<TetMesh>(&mesh_)) remove_slivers_of(*tets, *oracle);
   progress_.clear();
   if (options_.output.order == 2) watch_.timed("second order", [&] { curve(*oracle); });
-  tell_effort();
+  tell_effort(console_, run_report_, sliver_report_);
+  if (options_.surface_only_after_dense) tell_dense(console_, run_report_);
 }
 
 // DelSurf2, which needs no oracle, nor a size.
@@ -268,38 +268,7 @@ void MeshingRun::mesh_by_topology() {
     return delsurf2(*domain, {surface_criteria(sizes_.size), control()}, run_report_);
   });
   progress_.clear();
-  tell_effort();
-}
-
-// Of --surface-only-after-dense: what was inserted in each phase.
-std::string dense_sentence(const RunReport& report) {
-  if (report.dense_insertions == 0) {
-    return "nothing was inserted on the surface alone: the sample is not dense where it is to be refined";
-  }
-  std::string text = "inserted beside the seeds: " +
-                     grouped(report.surface_insertions + report.topology_insertions) +
-                     " in the triangulation of space, " + grouped(report.dense_insertions) + " on the surface alone";
-  if (report.dense_failures > 0) {
-    text += "; for " + plural(report.dense_failures, "place") + " the triangulation of space was made again";
-  }
-  return text;
-}
-
-void MeshingRun::tell_effort() const {
-  for (const StageTime& stage : run_report_.stages) {
-    console_.detail("stage " + stage.stage + ": " + number(stage.seconds, 3) + " s");
-  }
-  console_.detail("inserted: surface " + grouped(run_report_.surface_insertions) + ", topology " +
-                  grouped(run_report_.topology_insertions) + ", smooth " + grouped(run_report_.smooth_insertions) +
-                  ", interior " + grouped(run_report_.interior_insertions) + "; removed " +
-                  grouped(run_report_.removals));
-  if (options_.surface_only_after_dense) console_.note(dense_sentence(run_report_));
-  if (sliver_report_) {
-    console_.detail("slivers " + grouped(sliver_report_->slivers) + ": reconnected " +
-                    grouped(sliver_report_->reconnections) + ", moved " + grouped(sliver_report_->moves) +
-                    ", inserted " + grouped(sliver_report_->insertions) + ", removed " +
-                    grouped(sliver_report_->removals) + ", left " + grouped(sliver_report_->unmet.size()));
-  }
+  tell_effort(console_, run_report_, sliver_report_);
 }
 
 // Mid-side nodes, those of the boundary on the isosurface; what is not is told.
@@ -482,23 +451,12 @@ std::string MeshingRun::summary() const {
   return text;
 }
 
-void MeshingRun::list_unmet_tets() const {
-  if (!sliver_report_) return;
-  constexpr std::size_t kListed = 20;
-  const auto& unmet = sliver_report_->unmet;
-  for (std::size_t i = 0; i < std::min(kListed, unmet.size()); ++i) {
-    console_.note("warning: a dihedral angle of " + number(unmet[i].dihedral_degrees, 3) + " degrees at " +
-                  point(unmet[i].where) + ": " + unmet[i].reason);
-  }
-  if (unmet.size() > kListed) console_.note("... and " + grouped(unmet.size() - kListed) + " more, see --report");
-}
-
 // The report to its file and to the console.
 void MeshingRun::tell(Json json) const {
   json.update(report());
   if (!options_.report.empty()) write_json(json, options_.report);
   if (console_.json()) console_.machine_result(text_of(json));
-  list_unmet_tets();
+  if (sliver_report_) warn_of_slivers(console_, *sliver_report_);
   console_.result(summary());
 }
 

@@ -109,20 +109,9 @@ struct CosineSpread {
 
 // where() is asked only if the value is the worst so far.
 template <class Where>
-void keep_largest(Extreme& extreme, double value, const Where& where) {
-  if (extreme.any && !(value > extreme.value)) return;
-  extreme = {value, true, where(), extreme.violations};
-}
-
-template <class Where>
 void keep_smallest(Extreme& extreme, double value, const Where& where) {
   if (extreme.any && !(value < extreme.value)) return;
   extreme = {value, true, where(), extreme.violations};
-}
-
-void append_largest(Extreme& extreme, const Extreme& later) {
-  if (later.any) keep_largest(extreme, later.value, [&] { return later.where; });
-  extreme.violations += later.violations;
 }
 
 void append_smallest(Extreme& extreme, const Extreme& later) {

@@ -21,6 +21,19 @@ struct Extreme {
   std::size_t violations = 0;
 };
 
+/// Notes a value if it is the largest so far; where() is asked only then.
+template <class Where>
+void keep_largest(Extreme& extreme, double value, const Where& where) {
+  if (extreme.any && !(value > extreme.value)) return;
+  extreme = {value, true, where(), extreme.violations};
+}
+
+/// Adds what was found in a later part, of a quantity whose largest value is the worst.
+inline void append_largest(Extreme& extreme, const Extreme& later) {
+  if (later.any) keep_largest(extreme, later.value, [&] { return later.where; });
+  extreme.violations += later.violations;
+}
+
 /// Circumcentre of a triangle, in its plane.
 Point3 circumcenter(const Point3& a, const Point3& b, const Point3& c);
 

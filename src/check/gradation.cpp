@@ -105,18 +105,14 @@ Extreme measure_gradation(const std::vector<Point3>& points, std::span<const Tet
       last = sphere.center;
       last_depth = depth;
       const double ratio = sphere.radius / (at_surface + bound.grade * depth);
-      if (!worst.any || ratio > worst.value) worst = {ratio, true, sphere.center, worst.violations};
+      keep_largest(worst, ratio, [&] { return sphere.center; });
       const double move = sphere.uncertainty * precision.displacement_mm;
       worst.violations += ratio > 1 + 1e-9 && !(sphere.radius - move <= at_surface + bound.grade * (depth + move));
     }
     return worst;
   });
   Extreme worst;
-  for (const Extreme& part : parts) {
-    const std::size_t violations = worst.violations + part.violations;
-    if (part.any && !(worst.any && part.value <= worst.value)) worst = part;
-    worst.violations = violations;
-  }
+  for (const Extreme& part : parts) append_largest(worst, part);
   return worst;
 }
 

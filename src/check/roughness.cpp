@@ -35,20 +35,16 @@ Extreme measure_roughness(const std::vector<Point3>& points, std::span<const Tri
         const double cosine_side = edge[0].flipped() == edge[1].flipped() ? -1 : 1;  // as if consistently oriented
         const double degrees =
             std::atan2(norm(cross(a.normal, b.normal)), cosine_side * dot(a.normal, b.normal)) * kDegrees;
-        if (!worst.any || degrees > worst.value) {
+        keep_largest(worst, degrees, [&] {
           const std::uint32_t from = edge[0].item() % 3, to = from == 2 ? 0 : from + 1;
-          worst = {degrees, true, midpoint(points[one[from]], points[one[to]]), worst.violations};
-        }
+          return midpoint(points[one[from]], points[one[to]]);
+        });
         if (!bounds.max_roughness_degrees) return;
         const double slack = (a.tilt + b.tilt) * precision.displacement_mm * kDegrees;
         worst.violations += !(degrees <= *bounds.max_roughness_degrees * (1 + 1e-9) + slack);
       });
   Extreme worst;
-  for (const Extreme& part : parts) {
-    const std::size_t violations = worst.violations + part.violations;
-    if (part.any && !(worst.any && part.value <= worst.value)) worst = part;
-    worst.violations = violations;
-  }
+  for (const Extreme& part : parts) append_largest(worst, part);
   return worst;
 }
 

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kSlack = 1 + 1e-9;
 
-void note_largest(Extreme& extreme, double value, const Point3& where) {
-  if (!extreme.any || value > extreme.value) extreme = {value, true, where, extreme.violations};
-}
-
 class VoxelChecker {
  public:
   VoxelChecker(const SurfaceOfMesh& mesh, const Isosurface& surface, const CheckOptions& options)
@@ -42,7 +38,7 @@ class VoxelChecker {
       if (seen[v]) return;
       seen[v] = true;
       const double distance = node_distance_voxels(mesh_.points[v], tolerance);
-      note_largest(worst, distance, mesh_.points[v]);
+      keep_largest(worst, distance, [&] { return mesh_.points[v]; });
       if (held && !(distance <= tolerance)) ++worst.violations;
     };
     for (const Triangle& t : mesh_.triangles) std::for_each(t.begin(), t.end(), check_node);
@@ -69,11 +65,11 @@ class VoxelChecker {
         ++without_ball;
         if (mesh_.bounds.size) ++size.violations;
         if (mesh_.bounds.max_deviation) ++deviation.violations;
-        if (mesh_.bounds.size) note_largest(size, std::max(radius, *mesh_.bounds.size), center);
+        if (mesh_.bounds.size) keep_largest(size, std::max(radius, *mesh_.bounds.size), [&] { return center; });
         continue;
       }
-      note_largest(size, std::hypot(radius, *height), center);
-      note_largest(deviation, *height, center);
+      keep_largest(size, std::hypot(radius, *height), [&] { return center; });
+      keep_largest(deviation, *height, [&] { return center; });
       if (mesh_.bounds.max_deviation && !(*height <= *mesh_.bounds.max_deviation * kSlack + 4 * displacement())) {
         ++deviation.violations;
       }

@@ -9,7 +9,7 @@ namespace delvox {
 /// Throws OptionError unless the criteria are such that refinement is known to end (book, 14.4 and 14.5).
 void check_criteria(const SurfaceCriteria& criteria);
 void check_criteria(const TetCriteria& criteria);
-/// Likewise.
+/// Throws OptionError unless a bound on folds is from 0 to 90 degrees.
 void check_min_fold(double degrees);
 
 /// The criteria as promises; size fields promise their maximum.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "core/frame.h"
 #include "core/hash.h"
 #include "delaunay/restricted_delaunay.h"
 #include "delvox/core/errors.h"
@@ -57,8 +58,8 @@ double largest_curvature(const SmoothOracle& oracle, const Point3& p, double ste
     return (1 / norm(g)) * g;
   };
   const Vector3 n = normal(p);
-  const Vector3 axis = std::abs(n.x) < 0.6 ? Vector3{1, 0, 0} : Vector3{0, 1, 0};
-  const Vector3 u0 = cross(n, axis), u = (1 / norm(u0)) * u0, v = cross(n, u);
+  Vector3 u, v;
+  find_frame(n, u, v);
   const Vector3 by_u = (0.5 / step) * (normal(p + step * u) - normal(p - step * u));
   const Vector3 by_v = (0.5 / step) * (normal(p + step * v) - normal(p - step * v));
   const double a = dot(by_u, u), b = 0.5 * (dot(by_u, v) + dot(by_v, u)), c = dot(by_v, v);

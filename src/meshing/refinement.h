@@ -19,7 +19,6 @@
 #include "meshing/repair_effort.h"
 #include "meshing/run_budget.h"
 #include "meshing/surface_triangulation.h"
-#include "meshing/surface_verdict.h"
 
 namespace delvox {
 

@@ -3,6 +3,7 @@
 
 #include "delvox/core/errors.h"
 #include "meshing/refinement.h"
+#include "meshing/surface_verdict.h"
 #include "meshing/umbrella.h"
 
 namespace delvox {

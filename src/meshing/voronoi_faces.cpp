@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 
+#include "core/frame.h"
+
 namespace delvox {
 namespace {
 
 using Point2 = std::array<double, 2>;
 
-/// The points nearer to p than to q, by at most `margin` not.
+/// The points nearer to p than to q, and those up to a margin beyond.
 HalfSpace nearer(const Point3& p, const Point3& q, double margin) {
   const Vector3 pq = q - p, normal = (1 / norm(pq)) * pq;
   return {normal, dot(normal, midpoint(p, q)) + margin};

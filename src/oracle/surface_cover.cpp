@@ -55,12 +55,11 @@ SurfaceCover::Node SurfaceCover::make_node(const IntervalBox& box) const {
   std::array<Interval, SmoothFunction::kResults[1]> at_middle;
   const Point3 middle = middle_of(box);
   function_.enclose(box_of(middle), 1, at_middle.data());
-  constexpr std::size_t kHessian[3][3] = {{4, 5, 6}, {5, 7, 8}, {6, 8, 9}};
   Interval mean_value = at_middle[0];
   for (std::size_t i = 0; i < 3; ++i) {
     Interval derivative = at_middle[1 + i];
     for (std::size_t j = 0; j < 3; ++j) {
-      derivative = derivative + results[kHessian[i][j]] * (box[j] - Interval(middle[static_cast<int>(j)]));
+      derivative = derivative + results[SmoothFunction::kSecond[i][j]] * (box[j] - Interval(middle[static_cast<int>(j)]));
     }
     node.gradient[i] = intersection(results[1 + i], derivative);
     mean_value = mean_value + node.gradient[i] * (box[i] - Interval(middle[static_cast<int>(i)]));

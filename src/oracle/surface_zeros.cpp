@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "core/frame.h"
+
 namespace delvox {
 namespace {
 
@@ -13,10 +15,8 @@ using IntervalVector3 = IntervalVector<3>;
 /// Boxes of a search that is not to be decided within so many never are.
 constexpr std::size_t kMostBoxes = 50'000;
 
-constexpr std::size_t kHessian[3][3] = {{4, 5, 6}, {5, 7, 8}, {6, 8, 9}};
-constexpr std::size_t kThird[3][3][3] = {{{10, 11, 12}, {11, 13, 14}, {12, 14, 15}},
-                                         {{11, 13, 14}, {13, 16, 17}, {14, 17, 18}},
-                                         {{12, 14, 15}, {14, 17, 18}, {15, 18, 19}}};
+constexpr auto& kHessian = SmoothFunction::kSecond;
+constexpr auto& kThird = SmoothFunction::kThird;
 
 IntervalVector3 gradient_of(const Results& r) {
   return {r[1], r[2], r[3]};
@@ -138,6 +138,17 @@ class SilhouetteSystem final : public ZeroSystem<3> {
   Vector3 d_, d_prime_;
 };
 
+/// The middles of the boxes, as points.
+template <std::size_t N, class PointOf>
+FoundPoints found_in(const Zeros<N>& zeros, const PointOf& point_of) {
+  FoundPoints found;
+  for (const auto& x : zeros.simple) found.points.push_back(point_of(x));
+  for (const auto& x : zeros.undecided) found.undecided.push_back(point_of(x));
+  return found;
+}
+
+const auto kMiddle = [](const IntervalVector3& x) { return middle_of(x); };
+
 }  // namespace
 
 FoundPoints find_crossings(const SurfaceCover& cover, const Point3& a, const Point3& b) {
@@ -150,8 +161,9 @@ FoundPoints find_crossings(const SurfaceCover& cover, const Point3& a, const Poi
     Zeros<1> zeros = find_zeros<1>(system, {{piece}}, limits);
     std::sort(zeros.simple.begin(), zeros.simple.end(),
               [](const IntervalVector<1>& x, const IntervalVector<1>& y) { return x[0].low < y[0].low; });
-    for (const auto& t : zeros.simple) found.points.push_back(point(t));
-    for (const auto& t : zeros.undecided) found.undecided.push_back(point(t));
+    const FoundPoints in_piece = found_in<1>(zeros, point);
+    found.points.insert(found.points.end(), in_piece.points.begin(), in_piece.points.end());
+    found.undecided.insert(found.undecided.end(), in_piece.undecided.begin(), in_piece.undecided.end());
   }
   return found;
 }
@@ -159,11 +171,7 @@ FoundPoints find_crossings(const SurfaceCover& cover, const Point3& a, const Poi
 FoundPoints find_critical_points(const SurfaceCover& cover, const Vector3& direction) {
   const CriticalPointSystem system(cover.function(), direction);
   const ZeroSearchLimits limits{cover.smallest_width(), kMostBoxes};
-  const Zeros<3> zeros = find_zeros<3>(system, cover.critical_boxes(system.u(), system.v()), limits);
-  FoundPoints found;
-  for (const auto& x : zeros.simple) found.points.push_back(middle_of(x));
-  for (const auto& x : zeros.undecided) found.undecided.push_back(middle_of(x));
-  return found;
+  return found_in<3>(find_zeros<3>(system, cover.critical_boxes(system.u(), system.v()), limits), kMiddle);
 }
 
 FoundPoints find_critical_points(const SurfaceCover& cover, const PlanePart& part, const Vector3& direction,
@@ -179,34 +187,15 @@ FoundPoints find_critical_points(const SurfaceCover& cover, const PlanePart& par
     if (disjoint(shadow[0], part.rectangle[0]) || disjoint(shadow[1], part.rectangle[1])) continue;
     start.push_back({intersection(shadow[0], part.rectangle[0]), intersection(shadow[1], part.rectangle[1])});
   }
-  const Zeros<2> zeros = find_zeros<2>(system, start, {cover.smallest_width(), kMostBoxes, enough});
-  FoundPoints found;
-  for (const auto& x : zeros.simple) found.points.push_back(middle_of(system.box_of(x)));
-  for (const auto& x : zeros.undecided) found.undecided.push_back(middle_of(system.box_of(x)));
-  return found;
+  return found_in<2>(find_zeros<2>(system, start, {cover.smallest_width(), kMostBoxes, enough}),
+                     [&](const IntervalVector<2>& x) { return middle_of(system.box_of(x)); });
 }
 
 FoundPoints find_silhouette_critical_points(const SurfaceCover& cover, const ConvexRegion& region, const Vector3& d,
                                             const Vector3& d_prime, const std::vector<IntervalBox>& boxes,
                                             std::size_t enough) {
   const SilhouetteSystem system(cover.function(), region, d, d_prime);
-  const Zeros<3> zeros = find_zeros<3>(system, boxes, {cover.smallest_width(), kMostBoxes, enough});
-  FoundPoints found;
-  for (const auto& x : zeros.simple) found.points.push_back(middle_of(x));
-  for (const auto& x : zeros.undecided) found.undecided.push_back(middle_of(x));
-  return found;
-}
-
-void find_frame(const Vector3& unit, Vector3& u, Vector3& v) {
-  int least = 0;
-  for (int axis = 1; axis < 3; ++axis) {
-    if (std::abs(unit[axis]) < std::abs(unit[least])) least = axis;
-  }
-  Vector3 axis;
-  axis[least] = 1;
-  u = cross(axis, unit);
-  u = (1 / norm(u)) * u;
-  v = cross(unit, u);
+  return found_in<3>(find_zeros<3>(system, boxes, {cover.smallest_width(), kMostBoxes, enough}), kMiddle);
 }
 
 }  // namespace delvox

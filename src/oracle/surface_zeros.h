@@ -51,7 +51,4 @@ FoundPoints find_silhouette_critical_points(const SurfaceCover& cover, const Con
                                             const Vector3& d_prime, const std::vector<IntervalBox>& boxes,
                                             std::size_t enough);
 
-/// Two unit vectors orthogonal to a unit vector and to each other: u x v is the vector.
-void find_frame(const Vector3& unit, Vector3& u, Vector3& v);
-
 }  // namespace delvox

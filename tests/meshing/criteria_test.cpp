@@ -27,14 +27,8 @@ Point3 ball_center(const SurfaceMesh& mesh, const Triangle& t) {
 }
 
 SurfaceMesh mesh_sphere(const SurfaceCriteria& criteria) {
-  DelSurfOptions options;
-  options.surface = criteria;
   RunReport report;
-  SurfaceMesh mesh = delsurf(*sphere(), options, report);
-  test::expect_finished(report);
-  test::expect_closed_manifold(mesh);
-  EXPECT_EQ(test::topology_of(mesh).euler, 2);
-  return mesh;
+  return test::closed_surface(*sphere(), criteria, 2, report);
 }
 
 TEST(Criteria, SurfaceBallsKeepASizeThatIsANumber) {

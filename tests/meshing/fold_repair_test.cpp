@@ -73,6 +73,18 @@ TEST_P(FoldsOfPhantoms, AreRefinedUntilThreeTetsFitIntoThem) {
   test::expect_good_nodes(mesh, *oracle, c.voxel());
 }
 
+// There, landmarks hold the mesh to the topology of the voxels, whose creases are all fold.
+TEST(Folds, AreLeftAloneBelowSixTenthsOfAVoxel) {
+  const PhantomCase c{"noisy-sphere", test::with_noise(test::cubic_image(14), 0.7), 0.5};
+  const auto oracle = make_isosurface_oracle(c.volume(), c.isosurface());
+  RunReport report;
+  const TetMesh before = deltetsurf(*oracle, options_for(c.size, 1e-4, 0), report);
+  EXPECT_LT(sharpest_fold(before), 45) << "nothing to leave";
+  const TetMesh mesh = deltetsurf(*oracle, options_for(c.size, 1e-4, 45), report);
+  EXPECT_EQ(mesh.points, before.points);
+  EXPECT_EQ(mesh.tets, before.tets);
+}
+
 // Two planes that meet at 20 degrees, and a cap: no refinement opens that, and the smallest balls end it.
 TEST(Folds, AreLeftAloneAtTheSmallestBallRadius) {
   ImplicitFunction wedge;

@@ -8,6 +8,7 @@
 
 #include "delvox/check/check_mesh.h"
 #include "delvox/core/run.h"
+#include "delvox/meshing/delsurf.h"
 #include "delvox/oracle/oracle.h"
 #include "support/surface_measures.h"
 
@@ -106,6 +107,18 @@ inline void expect_finished(const RunReport& report) {
     ADD_FAILURE() << unmet.criterion << ": " << unmet.count << " at (" << unmet.where.x << ", " << unmet.where.y << ", "
                   << unmet.where.z << "): " << unmet.reason;
   }
+}
+
+/// What delsurf makes of it, once that is found to be a closed manifold of that Euler number.
+inline SurfaceMesh closed_surface(const Oracle& oracle, const SurfaceCriteria& criteria, long euler,
+                                  RunReport& report) {
+  DelSurfOptions options;
+  options.surface = criteria;
+  SurfaceMesh mesh = delsurf(oracle, options, report);
+  expect_finished(report);
+  expect_closed_manifold(mesh);
+  EXPECT_EQ(topology_of(mesh).euler, euler);
+  return mesh;
 }
 
 }  // namespace delvox::test

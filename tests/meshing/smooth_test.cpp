@@ -18,13 +18,7 @@ std::unique_ptr<SmoothOracle> torus() {
 }
 
 SurfaceMesh mesh_torus(const SurfaceCriteria& criteria, RunReport& report) {
-  DelSurfOptions options;
-  options.surface = criteria;
-  const SurfaceMesh mesh = delsurf(*torus(), options, report);
-  test::expect_finished(report);
-  test::expect_closed_manifold(mesh);
-  EXPECT_EQ(test::topology_of(mesh).euler, 0);
-  return mesh;
+  return test::closed_surface(*torus(), criteria, 0, report);
 }
 
 TEST(Smooth, NoEdgeIsRougherThanAskedForAndTheMeshSaysSo) {

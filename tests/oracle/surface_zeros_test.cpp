@@ -5,17 +5,16 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/frame.h"
 #include "delvox/core/errors.h"
 #include "delvox/oracle/formula.h"
 #include "support/random.h"
+#include "support/smooth_formulas.h"
 
 namespace delvox {
 namespace {
 
-const Box3 kBox{{-2, -2, -2}, {2, 2, 2}};
-const char* const kSphere = "x^2+y^2+z^2-1";
-const char* const kTorus = "(x^2+y^2+z^2+0.91)^2-4*(x^2+y^2)";  // radii 1 and 0.3
-const char* const kTwoSheets = "(x^2+y^2+z^2-1)*(x^2+y^2+z^2-1.44)";
+using test::kBox, test::kSphere, test::kTorus, test::kTwoSheets;
 
 /// A formula with its cover.
 struct Covered {

@@ -177,7 +177,10 @@ TEST(CliFormula, DelSurf2RefusesWhatIsNotSmooth) {
   refuse({"--implicit", "sqrt(x^2+y^2)+z^2-1", kBox}, "kink");
   refuse({"--implicit", "(x^2+y^2+z^2-1)^2", kBox}, "without a normal");
   refuse({"--implicit", "x^2+y^2+z^2-9", kBox}, "border of the box");
-  refuse({"--implicit", "x^2+y^2+z^2-1", kBox, "--border", "close"}, "--border");
+  for (const std::vector<std::string>& other : std::vector<std::vector<std::string>>{
+           {"--border", "close"}, {"--start", "persistent"}, {"--restricted", "all"}, {"--max-roughness", "20"}}) {
+    refuse({"--implicit", "x^2+y^2+z^2-1", kBox, other[0], other[1]}, other[0]);
+  }
   refuse({"--implicit", "x^2+y^2+z^2-1", kBox, "--max-memory", "1G"}, "--max-memory");
   EXPECT_NE(run_on(folder, {"surface", "--help"}).out.find("delsurf2"), std::string::npos);
   EXPECT_EQ(run_on(folder, {"surface", "--implicit", "x^2+y^2+z^2-1", kBox, "--algorithm", "fast", "-o", "s.ply"}).code,

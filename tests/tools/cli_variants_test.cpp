@@ -161,6 +161,7 @@ TEST_F(CliVariants, WhatMakesNoSenseIsAUsageError) {
   expect_usage_error(with({"--size", "sizes.nii"}), {"--size", "sizes.nii", "volume file"});
   expect_usage_error(with({"--size", "0.1*x"}), {"--size", "positive"});
   expect_usage_error({"tet", "--implicit", kTorus, kBox, "--algorithm=delsurf1"}, {"--algorithm"});
+  expect_usage_error({"remesh", "sphere.stl", "--algorithm=delsurf2"}, {"--algorithm", "delsurf1"});
 }
 
 }  // namespace

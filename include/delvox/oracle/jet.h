@@ -78,7 +78,7 @@ class Jet {
   const Interval& operator()(std::size_t i) const { return results_[i]; }
 
  private:
-  static constexpr std::size_t kSecond[3][3] = {{4, 5, 6}, {5, 7, 8}, {6, 8, 9}};
+  static constexpr auto& kSecond = SmoothFunction::kSecond;
 
   /// Sets every derivative; `third` is given the axes, and for each of them the second derivative along the others.
   template <class First, class Second, class Third>
@@ -90,10 +90,10 @@ class Jet {
       }
     }
     if constexpr (kOrder > 2) {
-      std::size_t at = SmoothFunction::kResults[2];
       for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = i; j < 3; ++j) {
-          for (std::size_t k = j; k < 3; ++k, ++at) {
+          for (std::size_t k = j; k < 3; ++k) {
+            const std::size_t at = SmoothFunction::kThird[i][j][k];
             results_[at] = third({i, j, k}, {kSecond[j][k], kSecond[i][k], kSecond[i][j]}, at);
           }
         }

@@ -18,6 +18,11 @@ class SmoothFunction {
   /// How many results there are up to each order of derivatives, in the order value, x, y, z, xx, xy, xz, yy, yz, zz,
   /// xxx, xxy, xxz, xyy, xyz, xzz, yyy, yyz, yzz, zzz.
   static constexpr std::size_t kResults[] = {1, 4, 10, 20};
+  /// Which of these the second and third derivatives along some axes are.
+  static constexpr std::size_t kSecond[3][3] = {{4, 5, 6}, {5, 7, 8}, {6, 8, 9}};
+  static constexpr std::size_t kThird[3][3][3] = {{{10, 11, 12}, {11, 13, 14}, {12, 14, 15}},
+                                                  {{11, 13, 14}, {13, 16, 17}, {14, 17, 18}},
+                                                  {{12, 14, 15}, {14, 17, 18}, {15, 18, 19}}};
 
   /// The value at a point, and the derivatives up to `order` (0 to 3): kResults[order] numbers.
   virtual void evaluate(const Point3& p, int order, double* results) const = 0;
