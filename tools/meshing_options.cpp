@@ -111,6 +111,29 @@ void add_algorithm_option(CLI::App& app, MeshingOptions& options) {
       ->type_name("NAME");
 }
 
+void add_dense_flag(CLI::App& app, MeshingOptions& options) {
+  auto* dense = app.add_flag("--surface-only-after-dense", options.surface_only_after_dense,
+                             "Once the sample is dense, refine the surface alone, without the triangulation of space: "
+                             "with less memory; the same is promised and checked");
+  if (options.kind == MeshKind::kTets) dense->group("");  // known, to say why not
+}
+
+/// What needs the triangulation of space to the end.
+void check_dense(const CLI::App& app, const MeshingOptions& options) {
+  if (!options.surface_only_after_dense) return;
+  const auto refuse = [](const std::string& why) { throw OptionError("--surface-only-after-dense: " + why); };
+  if (options.kind == MeshKind::kTets) {
+    refuse("tets are the triangulation of space; it is for delvox surface and remesh");
+  }
+  if (options.algorithm != "delsurf") refuse("not with --algorithm " + options.algorithm);
+  if (options.start != "seeds") refuse("not with --start " + options.start);
+  if (options.restricted != "bipolar") refuse("not with --restricted " + options.restricted);
+  for (const char* name : {"--max-roughness", "--feature-angle"}) {
+    const CLI::Option* option = app.get_option_no_throw(name);
+    if (option != nullptr && option->count() > 0) refuse(std::string("not with ") + name);
+  }
+}
+
 void add_variant_options(CLI::App& app, MeshingOptions& options) {
   if (options.kind == MeshKind::kSurface) add_algorithm_option(app, options);
   auto* start = app.add_option("--start", options.start,
@@ -127,6 +150,7 @@ void add_variant_options(CLI::App& app, MeshingOptions& options) {
       ->check(CLI::IsMember({"bipolar", "all"}))
       ->capture_default_str()
       ->type_name("WHICH");
+  add_dense_flag(app, options);
 }
 
 void add_limit_options(CLI::App& app, MeshingOptions& options) {
@@ -254,6 +278,7 @@ void decide_input(const CLI::App& app, MeshingOptions& options) {
   const bool samples = options.input != InputKind::kPolygons && holds_samples(app, path);
   const bool polygons = options.input == InputKind::kPolygons || (!samples && is_mesh_path(path));
   check_feature_angle(options, polygons);
+  check_dense(app, options);
   if (options.input == InputKind::kPolygons) return;
   if (options.input == InputKind::kVolume && polygons) {
     throw OptionError(path + ": is a polygon surface, no volume; delvox remesh is for those");

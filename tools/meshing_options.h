@@ -34,6 +34,7 @@ struct MeshingOptions {
   std::string start = "seeds";           ///< seeds or persistent
   std::uint64_t seed = 0;                ///< of the random choice of persistent triangles
   std::string restricted = "bipolar";    ///< bipolar or all
+  bool surface_only_after_dense = false;
   std::string size;                      ///< as size_request.h has it; empty: the domain's default, of delsurf1 lfs, of delsurf2 none
   std::optional<double> epsilon;         ///< share of lfs or curvature; unset: the default
   std::string cell_size;                 ///< a number or a volume file; empty: as size

@@ -226,7 +226,7 @@ Mesh MeshingRun::run_mesher(const Oracle& oracle) {
       return deltetsurf(oracle, {surface, tet_criteria(1), control(), variant(), min_fold}, run_report_);
     }
     const auto mesher = options_.algorithm == "delsurf1" ? delsurf1 : delsurf;
-    return mesher(oracle, {surface, control(), variant()}, run_report_);
+    return mesher(oracle, {surface, control(), variant(), options_.surface_only_after_dense}, run_report_);
   });
 }
 
@@ -260,6 +260,7 @@ void MeshingRun::mesh_at(const SizeField& size) {
   progress_.clear();
   if (options_.output.order == 2) watch_.timed("second order", [&] { curve(*oracle); });
   tell_effort(console_, run_report_, sliver_report_);
+  if (options_.surface_only_after_dense) tell_dense(console_, run_report_);
 }
 
 // DelSurf2, which needs no oracle, nor a size.

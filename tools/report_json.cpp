@@ -154,6 +154,7 @@ Json options_json(const CLI::App& app) {
   Json json = Json::object();
   for (const CLI::Option* option : app.get_options()) {
     const std::string name = option->get_single_name();
+    if (option->get_group().empty()) continue;  // not of this verb
     if (name != "help" && name != "version") json[name] = option_json(*option);
   }
   return json;
@@ -213,6 +214,8 @@ Json to_json(const RunReport& report) {
           {"topology_insertions", report.topology_insertions},
           {"smooth_insertions", report.smooth_insertions},
           {"reinsertions", report.reinsertions},
+          {"dense_insertions", report.dense_insertions},
+          {"dense_failures", report.dense_failures},
           {"interior_insertions", report.interior_insertions},
           {"removals", report.removals}};
 }

@@ -19,6 +19,18 @@ void tell_effort(const Console& console, const RunReport& run, const std::option
                  grouped(slivers->removals) + ", left " + grouped(slivers->unmet.size()));
 }
 
+void tell_dense(const Console& console, const RunReport& run) {
+  if (run.dense_insertions == 0) {
+    return console.note("nothing was inserted on the surface alone: the sample is not dense where it is to be refined");
+  }
+  std::string text = "inserted beside the seeds: " + grouped(run.surface_insertions + run.topology_insertions) +
+                     " in the triangulation of space, " + grouped(run.dense_insertions) + " on the surface alone";
+  if (run.dense_failures > 0) {
+    text += "; for " + plural(run.dense_failures, "place") + " the triangulation of space was made again";
+  }
+  console.note(text);
+}
+
 void warn_of_slivers(const Console& console, const SliverReport& slivers) {
   constexpr std::size_t kListed = 20;
   const auto& unmet = slivers.unmet;

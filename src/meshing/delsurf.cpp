@@ -3,38 +3,28 @@
 #include <limits>
 
 #include "meshing/check_options.h"
+#include "meshing/delsurf_steps.h"
 #include "meshing/extract.h"
-#include "meshing/refinement.h"
 
 namespace delvox {
-namespace {
 
-// The restricted triangles of a refinement that has ended, with what they promise.
+void promise(SurfaceMesh& mesh, const SurfaceCriteria& criteria, const RunReport& report) {
+  mesh.info.promises = promises_of(criteria);
+  withdraw_unmet(report, mesh.info.promises);
+  mesh.info.complete = report.succeeded();
+}
+
 SurfaceMesh finished_surface(Refinement& refinement, const SurfaceCriteria& criteria, RunReport& report) {
   refinement.budget().end_stage();
   refinement.report_unmet();
   refinement.retire();
   SurfaceMesh mesh = extract_surface(refinement.delaunay(), refinement.feature_edges());
-  mesh.info.promises = promises_of(criteria);
-  withdraw_unmet(report, mesh.info.promises);
-  mesh.info.complete = report.succeeded();
+  promise(mesh, criteria, report);
   return mesh;
 }
 
-}  // namespace
-
-// DelSurf(Sigma, lambda), book section 14.3, with Quality and Smooth of 14.4. Seeds on every component may stand in for
-// the persistent triangle of steps 1 and 4 (figure 14.3 and the text above it). Quality acts along with step 2, once
-// the persistent triangle is gone.
-SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunReport& report) {
-  check_criteria(options.surface);
-  report = RunReport{};
-  Refinement refinement(oracle, options.surface, options.control, options.variant, report);
+void refine_surface(Refinement& refinement) {
   RunBudget& budget = refinement.budget();
-
-  budget.begin_stage("seeds");
-  refinement.keep_features(std::numeric_limits<double>::infinity(), false);
-  refinement.start();  // step 1
   do {
     do {
       budget.begin_stage("surface");
@@ -42,7 +32,21 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
       budget.begin_stage("topology");
     } while (refinement.repair());                                         // step 3
   } while (refinement.delete_persistent_vertex() || refinement.smooth());  // step 4, Smooth
-  return finished_surface(refinement, options.surface, report);            // step 5
+}
+
+// DelSurf(Sigma, lambda), book section 14.3, with Quality and Smooth of 14.4. Seeds on every component may stand in for
+// the persistent triangle of steps 1 and 4 (figure 14.3 and the text above it). Quality acts along with step 2, once
+// the persistent triangle is gone.
+SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunReport& report) {
+  check_criteria(options.surface);
+  report = RunReport{};
+  if (options.surface_only_after_dense) return delsurf_once_dense(oracle, options, report);
+  Refinement refinement(oracle, options.surface, options.control, options.variant, report);
+  refinement.budget().begin_stage("seeds");
+  refinement.keep_features(std::numeric_limits<double>::infinity(), false);
+  refinement.start();  // step 1
+  refine_surface(refinement);
+  return finished_surface(refinement, options.surface, report);  // step 5
 }
 
 // DelSurf1(Sigma, lambda), book section 14.1, with 14.1.2: the loop goes on as long as there are vertices of persistent

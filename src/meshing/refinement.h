@@ -20,6 +20,7 @@
 #include "meshing/refinement_lane.h"
 #include "meshing/repair_effort.h"
 #include "meshing/run_budget.h"
+#include "meshing/surface_triangulation.h"
 
 namespace delvox {
 
@@ -39,6 +40,18 @@ class Refinement {
   void keep_features(double longest, bool solid);
   /// Step 1: seeds on every component, or a persistent triangle on each. Throws NothingToMesh if there is no surface.
   void start();
+
+  /// Step 1 with a sample that an earlier run has made, in place of seeds. pre: that was of the same surface.
+  void start_with(const std::vector<Point3>& sample);
+  /// From now on, restricted triangles that are to be split are left as they are where the sample is dense. Seeds will be
+  /// fewer.
+  void leave_dense() { leaves_dense_ = true; }
+  /// The share of restricted triangles where the sample is not dense.
+  double rough_share() const;
+  /// Adds points of the surface to the sample; what cannot be, as it is there already, is left out.
+  void insert_more(const std::vector<Point3>& points);
+  /// Del|Sigma without Del S; none if it is no closed 2-manifold. pre: no triangle waits.
+  std::optional<SurfaceTriangulation> surface_triangulation() const;
 
   /// Works the queues until nothing waits, or the budget is used up. Steps 2 to 4 of DelTetSurf with Quality and the
   /// deviation bound: removes interior vertices from the surface, and splits restricted triangles that are too large,
@@ -249,6 +262,7 @@ class Refinement {
   RandomStream random_;
   std::vector<PersistentTriangle> persistent_;
   bool persistent_gone_ = false;
+  bool leaves_dense_ = false;
   RefinementQueues queues_;
   std::array<RefinementLane, kLanes> lanes_;
   std::vector<VertexId> dirty_;

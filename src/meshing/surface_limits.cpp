@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "meshing/triangle_shape.h"
+
 namespace delvox {
 namespace {
 
@@ -26,14 +28,11 @@ bool SurfaceLimits::allows_angles(const Point3& a, const Point3& b, const Point3
 
 bool SurfaceLimits::allows(const Point3& a, const Point3& b, const Point3& c) const {
   if (!allows_angles(a, b, c)) return false;
-  const Vector3 u = b - a, v = c - a, n = cross(u, v);
-  const double nn = squared_norm(n);
-  const Vector3 offset = (0.5 / nn) * (squared_norm(u) * cross(v, n) + squared_norm(v) * cross(n, u));
-  const Point3 center = a + offset;
-  const double rr = squared_norm(offset), largest = criteria_.size.maximum();
+  const auto [center, rr, n] = circumcircle(a, b, c);
+  const double largest = criteria_.size.maximum();
   if (!(rr < largest * largest)) return false;
   const double reach = std::min(std::sqrt(largest * largest - rr), criteria_.max_deviation);
-  const Vector3 step = (reach / std::sqrt(nn)) * n;
+  const Vector3 step = (reach / norm(n)) * n;
   const Point3 below = center - step, above = center + step;
   if (criteria_.size.constant() && oracle_.label(below) != oracle_.label(above)) return true;
   for (const Point3& ball : oracle_.intersect_all(below, above)) {

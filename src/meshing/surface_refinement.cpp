@@ -119,10 +119,11 @@ Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) co
   const SurfaceCriteria& criteria = touches_feature(facet) ? touching_ : surface_;
   switch (delvox::judge(criteria, delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), ball)) {
     case SurfaceVerdict::kGood: return Verdict::kGood;
-    case SurfaceVerdict::kSplit: return Verdict::kSplit;
-    case SurfaceVerdict::kTooDeviant: break;
+    case SurfaceVerdict::kSplit: break;
+    case SurfaceVerdict::kTooDeviant: return Verdict::kTooDeviant;
   }
-  return Verdict::kTooDeviant;
+  const bool leave = leaves_dense_ && dense_at(delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), ball);
+  return leave ? Verdict::kGood : Verdict::kSplit;
 }
 
 /// Where p encroaches on a segment, that is split instead.

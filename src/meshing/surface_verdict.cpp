@@ -24,4 +24,9 @@ SurfaceVerdict judge(const SurfaceCriteria& criteria, const Point3& a, const Poi
   return ball.squared_radius <= smallest * smallest ? SurfaceVerdict::kTooDeviant : SurfaceVerdict::kSplit;
 }
 
+bool dense_at(const Point3& a, const Point3& b, const Point3& c, const SurfaceBall& ball) {
+  const double squared_offset = ball.squared_radius - triangle_shape(a, b, c).squared_circumradius;
+  return squared_offset <= kDenseOffset * kDenseOffset * ball.squared_radius;
+}
+
 }  // namespace delvox

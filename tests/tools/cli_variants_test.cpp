@@ -50,6 +50,35 @@ TEST_F(CliVariants, EveryVariantMakesATorusTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST_F(CliVariants, SurfaceOnlyAfterDenseTellsWhatWasInsertedWhereAndMakesTheSameForAnyNumberOfThreads) {
+  for (const std::string threads : {"1", "2", "4"}) {
+    const Outcome outcome = run({"surface", "--implicit", kTorus, kBox, "--surface-only-after-dense", "--threads", threads,
+                                 "--report", "report.json", "-o", threads + ".ply"});
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("genus 1"), std::string::npos) << outcome.out;
+    EXPECT_NE(outcome.err.find("on the surface alone"), std::string::npos) << outcome.err;
+    const json report = json::parse(read_file(folder_ / "report.json"));
+    EXPECT_EQ(report["options"]["surface-only-after-dense"], true);
+    EXPECT_GT(report["run"]["dense_insertions"], 0);
+    EXPECT_EQ(report["run"]["dense_failures"], 0);
+    EXPECT_TRUE(read_file(folder_ / (threads + ".ply")) == read_file(folder_ / "1.ply"));
+  }
+  EXPECT_EQ(run({"check", "1.ply"}).code, 0);
+  const Outcome remeshed = run({"remesh", "1.ply", "--size", "0.05", "--surface-only-after-dense", "-o", "2.stl"});
+  EXPECT_EQ(remeshed.code, 0) << remeshed.err;
+  EXPECT_NE(remeshed.out.find("genus 1"), std::string::npos) << remeshed.out;
+}
+
+TEST_F(CliVariants, SurfaceOnlyAfterDenseIsRefusedWhereSpaceIsNeeded) {
+  const std::string flag = "--surface-only-after-dense";
+  expect_usage_error({"tet", "--implicit", kTorus, kBox, flag}, {flag, "tets", "delvox surface"});
+  expect_usage_error({"surface", "--implicit", kTorus, kBox, flag, "--algorithm", "delsurf1"}, {flag, "delsurf1"});
+  expect_usage_error({"surface", "--implicit", kTorus, kBox, flag, "--algorithm", "delsurf2"}, {flag, "delsurf2"});
+  expect_usage_error({"surface", "--implicit", kTorus, kBox, flag, "--start", "persistent"}, {flag, "persistent"});
+  expect_usage_error({"surface", "--implicit", kTorus, kBox, flag, "--restricted", "all"}, {flag, "restricted"});
+  expect_usage_error({"surface", "--implicit", kTorus, kBox, flag, "--max-roughness", "30"}, {flag, "roughness"});
+}
+
 TEST_F(CliVariants, TheSeedChoosesThePersistentTriangle) {
   for (const std::string seed : {"0", "1"}) {
     EXPECT_EQ(

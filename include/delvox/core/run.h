@@ -62,6 +62,8 @@ struct RunReport {
   std::size_t smooth_insertions = 0;  ///< of Smooth (book, 14.4)
   std::size_t removals = 0;           ///< step 2 of DelTetSurf, and vertices of persistent triangles
   std::size_t reinsertions = 0;       ///< of vertices of persistent triangles, when refinement was stuck without
+  std::size_t dense_insertions = 0;   ///< made without Del S, once the sample was dense
+  std::size_t dense_failures = 0;     ///< places for which Del S had to be made again
 
   bool succeeded() const;
 };
