@@ -237,6 +237,8 @@ class Refinement {
   // Tetrahedra (tet_refinement.cpp)
   bool bad(CellId cell) const;
   void look_at_tet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
+  std::optional<bool> leaves_to_features(const RefinementQueues::WaitingFacet& waiting, const SurfaceBall& ball,
+                                         RefinementLane& lane, RefinementQueues& queues, bool alone);
   bool leaves_to_features(const RefinementQueues::WaitingTet& waiting, const Point3& p, RefinementLane& lane,
                           RefinementQueues& queues, bool alone);
   bool find_encroached_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const;

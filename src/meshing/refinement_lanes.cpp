@@ -194,6 +194,29 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
   if (!watch_.empty() && lane.insertion == VertexKind::kSurface) lane.changing = box_of_change(lane.lane.star);
 }
 
+/// The ball's centre may encroach on a segment: then that is split, and the facet waits on, or the facet is left as it
+/// is. What look_at_facet() is to return; none if there is no segment.
+std::optional<bool> Refinement::leaves_to_features(const RefinementQueues::WaitingFacet& waiting,
+                                                   const SurfaceBall& ball, RefinementLane& lane,
+                                                   RefinementQueues& queues, bool alone) {
+  if (!features_) return std::nullopt;
+  const double size = surface_.size(ball.center);
+  std::uint32_t segment = 0;
+  const bool exempt = ball.squared_radius <= size * size && touches_feature(waiting.facet);
+  const AtFeature at = at_feature(ball.center, exempt, segment);
+  if (at == AtFeature::kClear) return std::nullopt;
+  if (at == AtFeature::kLeave) {
+    const bool known = delaunay_.ball(waiting.facet) != nullptr;
+    if (!known && delaunay_.bipolar(waiting.facet)) lane.judged.push_back({waiting, ball, false});
+    queues.pop_facet();
+    return true;
+  }
+  if (alone && !lane.judged.empty()) return false;
+  if (!alone) lane.aside.facets.push_back(waiting);
+  if (!alone || !budget_left() || !split_feature(segment)) queues.pop_facet();
+  return true;
+}
+
 /// The first facet waiting: leaves the queue, unless something is to be inserted for it. False if the mesh has to change
 /// for it at once, which it must not before the balls judged so far are kept.
 bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
@@ -224,21 +247,7 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
     queues.pop_facet();
     return true;
   }
-  std::uint32_t segment = 0;
-  const double size = surface_.size(ball->center);
-  const bool exempt = ball->squared_radius <= size * size && touches_feature(facet);
-  const AtFeature at = at_feature(ball->center, exempt, segment);
-  if (at == AtFeature::kLeave) {
-    if (known == nullptr && delaunay_.bipolar(facet)) lane.judged.push_back({waiting, *ball, false});
-    queues.pop_facet();
-    return true;
-  }
-  if (at == AtFeature::kSplit) {
-    if (alone && !may_change) return false;
-    if (!alone) lane.aside.facets.push_back(waiting);
-    if (!alone || !budget_left() || !split_feature(segment)) queues.pop_facet();
-    return true;
-  }
+  if (const auto done = leaves_to_features(waiting, *ball, lane, queues, alone)) return *done;
   Star& star = lane.lane.star;
   delaunay_.evaluate(ball->center, facet.cell, worker, star);
   if (delaunay_.disturbs_aside(star.zone)) {

@@ -1,8 +1,8 @@
 #!/bin/bash
-# Remakes the chapter's figures 14.5 and 14.7 to 14.9 on a scan, a formula and polygon surfaces:
+# Remakes the chapter's figures 14.5 and 14.7 to 14.9 on a scan, a formula and polygon surfaces, and one of sharp edges:
 #   testdata/gallery/make_figures.sh DELVOX CT_AVM.nii.gz MESHES [FOLDER]
-# MESHES holds elephant.off, bunny00.off and armadillo.off of CGAL's samples (data/meshes in Debian's libcgal-dev,
-# /usr/share/doc/libcgal-dev/data.tar.gz). Needs python3-vtk9 and xvfb. Pictures go to FOLDER, by default this one.
+# MESHES holds CGAL's samples (data/meshes in Debian's libcgal-dev, /usr/share/doc/libcgal-dev/data.tar.gz). Needs
+# python3-vtk9 and xvfb. Pictures go to FOLDER, by default this one.
 set -euo pipefail
 if [ $# -lt 3 ]; then
   sed -n 's/^#  *testdata/usage: testdata/p' "$0" >&2
@@ -47,6 +47,12 @@ figures_14_8_and_14_9() {
   render {elephant,bunny00,armadillo}.vtu "${view[@]}" --cut 0,0,1 --colours 96 -o "$pictures/figure_14_9.png"
 }
 
+sharp_edges() {
+  for name in fandisk joint anchor; do run tet "$meshes/$name.off" --feature-angle 60 -o $name.vtu; done
+  render {fandisk,joint,anchor}.vtu --size 420x380 --colours 64 -o "$pictures/sharp_edges.png"
+}
+
 figure_14_5
 figure_14_7
 figures_14_8_and_14_9
+sharp_edges

@@ -110,7 +110,7 @@ TEST(RemoveSlivers, TellsWhatIsLeftOnNoiseAndBreaksNothing) {
   noise.image.seed = 2;
   const Volume volume = noise.volume();
   const auto oracle = make_isosurface_oracle(volume, noise.isosurface());
-  const Repaired repaired = repair(*oracle, options_for(noise.size, noise.min_ball_radius(), 30));
+  const Repaired repaired = repair(*oracle, options_for(noise.size, 1e-4, 30), min_fold_for(30));
   test::expect_all_checks_hold(repaired.before);
   CheckOptions full;
   full.volume = &volume;
