@@ -323,7 +323,7 @@ VoxelTopology count_samples_topology(const SampleField& field, const Isosurface&
 
 SurfaceMesh samples_isosurface(const SampleField& field, const Isosurface& surface) {
   PolygonSurface polygons = linear_surface(field.impl()->triangulation, levels_of(field.samples().values, surface));
-  SurfaceMesh mesh{std::move(polygons.points), std::move(polygons.triangles), {}};
+  SurfaceMesh mesh{std::move(polygons.points), std::move(polygons.triangles), {}, {}};
   mesh.info.frame = field.samples().frame;
   return mesh;
 }
