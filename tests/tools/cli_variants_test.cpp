@@ -77,6 +77,7 @@ TEST_F(CliVariants, SurfaceOnlyAfterDenseIsRefusedWhereSpaceIsNeeded) {
   expect_usage_error({"surface", "--implicit", kTorus, kBox, flag, "--start", "persistent"}, {flag, "persistent"});
   expect_usage_error({"surface", "--implicit", kTorus, kBox, flag, "--restricted", "all"}, {flag, "restricted"});
   expect_usage_error({"surface", "--implicit", kTorus, kBox, flag, "--max-roughness", "30"}, {flag, "roughness"});
+  expect_usage_error({"remesh", "a.off", flag, "--feature-angle", "60"}, {flag, "--feature-angle"});
 }
 
 TEST_F(CliVariants, TheSeedChoosesThePersistentTriangle) {
