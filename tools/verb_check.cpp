@@ -95,6 +95,10 @@ void add_options(CLI::App& app, Options& options) {
   add_reading_options(app, options.volume);
   add_preprocessing_options(app, options.volume);
   add_component_options(app, options.isosurface);
+  for (const char* name : {"--spacing", "--volume-index", "--crop", "--resample", "--smooth", "--largest",
+                           "--min-component", "--fill-cavities"}) {
+    app.get_option(name)->needs(volume);
+  }
   app.add_option("--report", options.report, "Write the results to a JSON file")->type_name("FILE.json");
   add_config_option(app);
   add_console_options(app, options.console, JsonFlag::kOffered);
@@ -166,11 +170,17 @@ void compare_with_volume(const std::string& path, const MeshInfo& info, const Vo
   check.isosurface = surface;
 }
 
-void compare_with_formula(const Options& options, Reference& reference, CheckOptions& check) {
+void compare_with_formula(const std::string& path, const Mesh& mesh, const Options& options, Reference& reference,
+                          CheckOptions& check) {
   const Formula formula(options.implicit);
+  const Box3 box = parse_box(options.box);
+  const auto& points = std::visit([](const auto& m) -> const std::vector<Point3>& { return m.points; }, mesh);
+  if (!std::all_of(points.begin(), points.end(), [&](const Point3& p) { return !is_finite(p) || box.contains(p); })) {
+    throw OptionError("--box '" + options.box + "': does not hold all of " + path + "; widen it");
+  }
   reference.function = ImplicitFunction{[formula](const Point3& p) { return formula.value(p); },
                                         [formula](const Point3& p) { return formula.gradient(p); },
-                                        parse_box(options.box)};
+                                        box};
   check.function = &*reference.function;
 }
 
@@ -211,7 +221,7 @@ CheckReport check_file(const std::string& path, const Original& original, const 
   check.feature_angle_degrees = options.feature_angle_degrees;
   check.require_same_topology = options.same_topology;
   Reference reference;
-  if (!options.implicit.empty()) compare_with_formula(options, reference, check);
+  if (!options.implicit.empty()) compare_with_formula(path, file.mesh, options, reference, check);
   const SurfaceMesh* polygons = original.surface ? &*original.surface : nullptr;
   if (const auto& samples = original.samples) {
     const Frame frame = samples->samples().frame;
@@ -246,6 +256,9 @@ void run_check(const Verb& verb, const Arguments& arguments) {
   }
   if (!options.isosurface.iso.empty() && !compares_isosurface) {
     throw OptionError("--iso: of what? Give --volume or --samples");
+  }
+  if (options.same_topology && options.border == "open") {
+    throw OptionError("--same-topology: is that of a closed surface; leave out --border open");
   }
   for (const std::string& mesh : options.meshes) check_output(options.report, mesh);
   const Console console(options.console);

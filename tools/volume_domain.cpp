@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <array>
+#include <optional>
 
 #include "delvox/core/errors.h"
 #include "delvox/oracle/isosurface_oracle.h"
+#include "delvox/oracle/spline_function.h"
 #include "delvox/volume/peel.h"
 #include "format.h"
 #include "meshing_domain.h"
@@ -21,6 +24,10 @@ bool needs_samples(const std::string& iso) {
   return iso.empty() || iso.find_first_not_of("0123456789.eE+-") != std::string::npos;
 }
 
+bool fits_spline(const std::array<int, 3>& dims) {
+  return std::all_of(dims.begin(), dims.end(), [](int n) { return n <= kMostSplineSamples; });
+}
+
 class VolumeDomain final : public MeshingDomain {
  public:
   explicit VolumeDomain(const MeshingOptions& options) : options_(options) {}
@@ -36,7 +43,10 @@ class VolumeDomain final : public MeshingDomain {
     }
     chosen_ = watch.timed("isovalue", [&] { return choose_isosurface(*source, options_.isosurface, frame_); });
     ties_.emplace(chosen_.surface);
-    volume_ = watch.timed("reading", [&] { return load(*source, chosen_.surface, &*ties_); });
+    // The spline that DelSurf2 meshes depends on all samples.
+    const auto near = options_.algorithm == "delsurf2" && fits_spline(source->dims()) ? std::nullopt
+                                                                                      : std::optional(chosen_.surface);
+    volume_ = watch.timed("reading", [&] { return load(*source, near, &*ties_); });
     const VolumeHeader& h = volume_->header();
     tell_warnings(h, options_.volume, console);
     check_isosurface(chosen_, *volume_);

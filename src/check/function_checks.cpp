@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "check/surface_checks.h"
 #include "check/triangle_tree.h"
@@ -113,7 +114,9 @@ class FunctionChecker {
  private:
   double first_order_distance(const Point3& own) const {
     const double value = std::abs(function_.value(own));
-    return value == 0 ? 0 : value / norm(function_.gradient(own));
+    if (value == 0) return 0;
+    const double distance = value / norm(function_.gradient(own));
+    return std::isnan(distance) ? std::numeric_limits<double>::infinity() : distance;
   }
 
   // By Newton's method along the gradient: the nearest point of the surface to first order. Steps that would lead away

@@ -136,6 +136,9 @@ class TextReader {
     std::string list;
     for (std::size_t i = 0; i < cells_.size(); ++i) {
       if (std::find(columns_.begin(), columns_.begin() + 3, i) != columns_.begin() + 3) continue;
+      if (std::count(cells_.begin(), cells_.end(), cells_[i]) > 1) {
+        fail("names two columns " + in_quotes(cells_[i]), "give each a name of its own");
+      }
       if (!field_.empty() && cells_[i] == field_) {
         take(i);
         return;

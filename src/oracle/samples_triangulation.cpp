@@ -44,6 +44,18 @@ double exact_share(const Point3& p, const Point3& q, const Point3& r, const Poin
   return at_a == at_b ? 0 : CGAL::to_double(at_a / (at_a - at_b));
 }
 
+double volume_of(const Delaunay& delaunay) {
+  double volume = 0;
+  for (const auto cell : delaunay.finite_cell_handles()) volume += std::abs(delaunay.tetrahedron(cell).volume());
+  return volume;
+}
+
+double cube_of_extent(const std::vector<Point3>& points) {
+  Box3 box;
+  for (const Point3& p : points) box.extend(p);
+  return std::pow(box.diagonal(), 3);
+}
+
 Delaunay triangulate(const std::vector<Point3>& points) {
   std::vector<std::pair<Kernel::Point_3, std::uint32_t>> numbered;
   numbered.reserve(points.size());
@@ -53,6 +65,10 @@ Delaunay triangulate(const std::vector<Point3>& points) {
   if (delaunay.number_of_vertices() < 4)
     throw InputError("fewer than four different places; nothing lies between them");
   if (delaunay.dimension() < 3) throw InputError("all places lie in one plane; scatter them in space");
+  constexpr double kFlat = 1e-12;  // of the cube of the extent: where rounding alone makes a thickness
+  if (volume_of(delaunay) < kFlat * cube_of_extent(points)) {
+    throw InputError("all places lie in one plane, nearly; scatter them in space");
+  }
   return delaunay;
 }
 

@@ -37,8 +37,6 @@ std::vector<bool> regions_to_change(const std::vector<VoxelRegion>& regions, con
       if (changed[r]) {
         ++report.removed_components;
         report.removed_mm3 += region.volume_mm3;
-      } else {
-        ++report.kept_components;
       }
     } else if (too_small || filter.fill_cavities) {
       changed[r] = true;
@@ -117,9 +115,12 @@ FilteredVolume filter_components(const Volume& volume, const Isosurface& surface
   FilterReport report;
   const std::vector<VoxelRegion>& regions = map.result().regions;
   const std::vector<bool> changed = regions_to_change(regions, filter, report);
+  const std::vector<bool> inside = signs_after(regions, changed);
+  for (std::size_t r = 1; r < regions.size(); ++r) {  // what lies in a filled cavity is part of what surrounds it
+    report.kept_components += regions[r].inside && !changed[r] && !inside[regions[r].parent];
+  }
   if (report.removed_components + report.filled_cavities == 0) return {volume, report};
 
-  const std::vector<bool> inside = signs_after(regions, changed);
   const float just_inside = level_set.nearest(true), just_outside = level_set.nearest(false);
   GridEditor editor(volume);
   map.for_each_run([&](const RegionMap::Run& run) {

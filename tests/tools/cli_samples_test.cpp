@@ -158,6 +158,8 @@ TEST_F(CliSamples, BadSamplesAndOptionsThatMakeNoSenseAreRefused) {
   const std::string good = write("good.csv", with_values(cube_of_places(50, 6), ball)), out = folder_ / "out.vtu";
   write_file(folder_ / "three.csv", "0,0,0,1\n1,0,0,2\n0,1,0,3\n");
   write_file(folder_ / "flat.csv", "0,0,1,1\n1,0,1,2\n0,1,1,3\n1,1,1,5\n3,1,1,5\n");
+  write_file(folder_ / "thin.csv", "0,0,0,1\n1,0,0,0\n0,1,0,0\n0,0,1e-15,0\n");
+  write_file(folder_ / "twins.csv", "x,y,z,value,value\n0,0,0,1,2\n1,0,0,2,1\n0,1,0,3,1\n0,0,1,4,1\n");
   write_file(folder_ / "two.csv", "0,0,0,1\n1,0,0,2\n0,1,0,3\n0,0,1,4\n0,0,1,5\n");
   write_file(folder_ / "word.csv", "0,0,0,1\n1,0,0,two\n0,1,0,3\n0,0,1,4\n");
   write_file(folder_ / "nan.csv", "0,0,0,1\n1,0,0,nan\n0,1,0,3\n0,0,1,4\n");
@@ -171,6 +173,8 @@ TEST_F(CliSamples, BadSamplesAndOptionsThatMakeNoSenseAreRefused) {
     refuse("missing.csv", {"missing.csv"});
     refuse("three.csv", {"three.csv", "3 places"});
     refuse("flat.csv", {"flat.csv", "one plane"});
+    refuse("thin.csv", {"thin.csv", "one plane, nearly"});
+    refuse("twins.csv", {"two columns 'value'"});
     refuse("two.csv", {"line 4 and line 5"});
     refuse("word.csv", {"line 2", "'two'"});
     refuse("nan.csv", {"line 2", "not finite"});

@@ -230,6 +230,7 @@ TEST(FilterComponents, FilledCavitySwallowsWhatFloatsInIt) {
   const FilteredVolume filtered = filter_components(big_small_and_hollow(), {0.0}, {.fill_cavities = true});
   const VoxelTopology t = count_topology(filtered.volume, {0.0});
   EXPECT_EQ(t.inside_components, 3u);
+  EXPECT_EQ(filtered.report.kept_components, 3u);
   EXPECT_EQ(t.cavities, 0u);
   EXPECT_EQ(t.euler, 6);
   // Removed specks inside filled cavities become inside as well, not new cavities.
