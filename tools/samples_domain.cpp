@@ -50,14 +50,7 @@ class SamplesDomain final : public MeshingDomain {
 
   std::unique_ptr<Oracle> make_oracle(const SizeField&, Stopwatch&) override { return oracle_->clone(); }
 
-  void finish(Mesh& mesh) const override {
-    std::visit(
-        [this](auto& m) {
-          m.info.isovalue = chosen_.surface.isovalue;
-          m.info.below = chosen_.surface.below;
-        },
-        mesh);
-  }
+  void finish(Mesh& mesh) const override { carry_isosurface(chosen_.surface, mesh); }
 
   std::optional<Unmet> shortfall(const CheckReport& check) const override {
     return topology_shortfall(check, oracle_->topology(), "the linear interpolant", frame_(inside_.box.center()));

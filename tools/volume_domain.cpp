@@ -83,12 +83,7 @@ class VolumeDomain final : public MeshingDomain {
   void finish(Mesh& mesh) const override {
     if (options_.border == "open") mesh = open_at_border(std::get<SurfaceMesh>(mesh), volume_->header());
     if (options_.algorithm == "delsurf2") return;  // its nodes lie on the spline, not on the trilinear isosurface
-    std::visit(
-        [this](auto& m) {
-          m.info.isovalue = chosen_.surface.isovalue;
-          m.info.below = chosen_.surface.below;
-        },
-        mesh);
+    carry_isosurface(chosen_.surface, mesh);
   }
 
   std::optional<Unmet> shortfall(const CheckReport& check) const override {

@@ -124,6 +124,12 @@ ChosenIsosurface choose_isosurface(const VolumeSource& source, const IsosurfaceO
   return {{choice.value, options.below}, choice.sentence + (options.below ? ", inside is at or below" : "")};
 }
 
+void carry_isosurface(const Isosurface& surface, Mesh& mesh) {
+  MeshInfo& info = std::visit([](auto& m) -> MeshInfo& { return m.info; }, mesh);
+  info.isovalue = surface.isovalue;
+  info.below = surface.below;
+}
+
 void check_isosurface(const ChosenIsosurface& chosen, const Volume& volume) {
   check_isovalue({chosen.surface.isovalue, chosen.sentence}, volume);
 }

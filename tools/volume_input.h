@@ -4,6 +4,7 @@
 #include <string>
 
 #include "console.h"
+#include "delvox/core/mesh.h"
 #include "delvox/volume/level_set.h"
 #include "delvox/volume/read_volume.h"
 #include "delvox/volume/voxel_topology.h"
@@ -62,6 +63,9 @@ struct ChosenIsosurface {
   Isosurface surface;
   std::string sentence;
 };
+
+/// What a mesh whose nodes lie on it says of it.
+void carry_isosurface(const Isosurface& surface, Mesh& mesh);
 
 /// Resolves --iso; a point given as at:x,y,z is one of `frame`.
 ChosenIsosurface choose_isosurface(const VolumeSource& source, const IsosurfaceOptions& options,

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "check/surface_checks.h"
+#include "check/triangle_samples.h"
 #include "check/triangle_tree.h"
 #include "check/trilinear_field.h"
 #include "core/parallel.h"
@@ -61,37 +63,23 @@ class FunctionChecker {
   }
 
   void measure_mesh_to_surface(SurfaceDistances& distances) const {
-    struct Part {
-      double max = 0, weighted = 0, area = 0;
-    };
     const auto parts = map_chunks(mesh_.triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      static constexpr double kSamples[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3},
-                                                {2.0 / 3, 1.0 / 6, 1.0 / 6},
-                                                {1.0 / 6, 2.0 / 3, 1.0 / 6},
-                                                {1.0 / 6, 1.0 / 6, 2.0 / 3}};
-      Part part;
+      SampledDistances part;
       for (std::size_t i = begin; i < end; ++i) {
         const Triangle& t = mesh_.triangles[i];
         const Point3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
-        const double area = norm(cross(b - a, c - a));
-        for (const auto& w : kSamples) {
-          const Point3 p = to_own_(w[0] * a + w[1] * b + w[2] * c);
-          const double d = distance(p, nearest(p));
-          part.max = std::max(part.max, d);
-          part.weighted += d * area;
-          part.area += area;
-        }
+        const double double_area = norm(cross(b - a, c - a));
+        for_each_sample(a, b, c, [&](const Point3& sample) {
+          const Point3 p = to_own_(sample);
+          part.add(distance(p, nearest(p)), double_area);
+        });
       }
       return part;
     });
-    Part all;
-    for (const Part& part : parts) {
-      all.max = std::max(all.max, part.max);
-      all.weighted += part.weighted;
-      all.area += part.area;
-    }
-    distances.mesh_to_surface_max_mm = all.max;
-    distances.mesh_to_surface_mean_mm = all.area > 0 ? all.weighted / all.area : 0;
+    SampledDistances all;
+    for (const SampledDistances& part : parts) all.append(part);
+    distances.mesh_to_surface_max_mm = all.max();
+    distances.mesh_to_surface_mean_mm = all.mean();
   }
 
   void measure_surface_to_mesh(const Volume& samples, SurfaceDistances& distances) const {
@@ -160,8 +148,8 @@ void check_against_function(const SurfaceOfMesh& mesh, const CheckOptions& optio
   comparison.euler = topology.euler;
   checker.measure_mesh_to_surface(comparison.distances);
   checker.measure_surface_to_mesh(samples, comparison.distances);
-  compare_topology(mesh, "function, sampled 128 times along its box", comparison.components, comparison.euler, options,
-                   builder);
+  compare_topology(mesh, "function, sampled " + std::to_string(kCells) + " times along its box", comparison.components,
+                   comparison.euler, options, builder);
   report.surface_comparison = comparison;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "check/surface_checks.h"
+#include "check/triangle_samples.h"
 #include "check/triangle_tree.h"
 #include "check/trilinear_field.h"
 
@@ -107,25 +108,19 @@ class VoxelChecker {
   }
 
   void measure_mesh_to_surface(VoxelComparison& comparison) const {
-    static constexpr double kSamples[4][3] = {{1.0 / 3, 1.0 / 3, 1.0 / 3},
-                                              {2.0 / 3, 1.0 / 6, 1.0 / 6},
-                                              {1.0 / 6, 2.0 / 3, 1.0 / 6},
-                                              {1.0 / 6, 1.0 / 6, 2.0 / 3}};
-    double area_sum = 0, weighted = 0;
+    SampledDistances sampled;
     for (const Triangle& t : mesh_.triangles) {
       const Point3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
       const Vector3 normal = cross(b - a, c - a);
       const double double_area = norm(normal);
       if (!(double_area > 0)) continue;
       const double reach = 2 * std::max({distance(a, b), distance(b, c), distance(c, a), voxel_mm_});
-      for (const auto& w : kSamples) {
-        const double d = distance_to_surface_mm(w[0] * a + w[1] * b + w[2] * c, (1 / double_area) * normal, reach);
-        comparison.distances.mesh_to_surface_max_mm = std::max(comparison.distances.mesh_to_surface_max_mm, d);
-        weighted += d * double_area;
-        area_sum += double_area;
-      }
+      for_each_sample(a, b, c, [&](const Point3& p) {
+        sampled.add(distance_to_surface_mm(p, (1 / double_area) * normal, reach), double_area);
+      });
     }
-    comparison.distances.mesh_to_surface_mean_mm = area_sum > 0 ? weighted / area_sum : 0;
+    comparison.distances.mesh_to_surface_max_mm = sampled.max();
+    comparison.distances.mesh_to_surface_mean_mm = sampled.mean();
   }
 
   void measure_surface_to_mesh(VoxelComparison& comparison) const {

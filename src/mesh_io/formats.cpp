@@ -66,10 +66,7 @@ constexpr Companion kCompanions[] = {
 };
 
 const Format* find_format(const fs::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
+  const std::string extension = lower_case(path.extension().string());
   const auto found = std::find_if(std::begin(kFormats), std::end(kFormats),
                                   [&](const Format& format) { return format.extension == extension; });
   return found == std::end(kFormats) ? nullptr : found;

@@ -17,14 +17,6 @@ constexpr double kLargestCoordinate = 1e15, kLargestValue = 1e30;
 /// Places further from the origin than this many times their extent differ in their last digits only.
 constexpr double kFarthest = 1e9;
 
-std::string lower_extension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  for (char& c : extension) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return extension;
-}
-
 std::string text_of(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.9g", value);
@@ -105,7 +97,7 @@ std::size_t merge_equal(const Source& source, RawSamples& raw) {
 
 SamplesFile read_samples(const std::filesystem::path& path, const std::string& field) {
   const Source source = load_source(path);
-  const bool vtu = lower_extension(path) == ".vtu";
+  const bool vtu = lower_case(path.extension().string()) == ".vtu";
   RawSamples raw = vtu ? read_samples_vtu(source, field) : read_samples_text(source, field);
   check_numbers(source, raw);
   SamplesFile file;
@@ -121,7 +113,7 @@ SamplesFile read_samples(const std::filesystem::path& path, const std::string& f
 }
 
 bool is_samples_path(const std::filesystem::path& path) {
-  const std::string extension = lower_extension(path);
+  const std::string extension = lower_case(path.extension().string());
   return extension == ".csv" || extension == ".tsv" || extension == ".txt";
 }
 

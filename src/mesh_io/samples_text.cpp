@@ -25,14 +25,6 @@ std::optional<double> number_in(std::string_view cell) {
   return value;
 }
 
-std::string lower_case(std::string_view text) {
-  std::string result(text);
-  for (char& c : result) {
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  }
-  return result;
-}
-
 class TextReader {
  public:
   TextReader(const Source& source, const std::string& field) : source_(source), field_(field) {}

@@ -28,6 +28,8 @@ Source load_source(const std::filesystem::path& path);
 std::string in_quotes(std::string_view text);
 
 std::string_view trimmed(std::string_view text);
+/// With small letters in place of A to Z.
+std::string lower_case(std::string_view text);
 std::string upper_case(std::string_view text);
 bool is_blank(char c);
 

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "delvox/core/errors.h"
 #include "meshing/check_options.h"
 #include "meshing/delsurf_steps.h"
 #include "meshing/extract.h"
@@ -54,6 +55,7 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
 SurfaceMesh delsurf1(const Oracle& oracle, const DelSurfOptions& options, RunReport& report) {
   check_criteria(options.surface);
   refuse_features(options.surface, "delsurf1");
+  if (options.surface_only_after_dense) throw OptionError("surface-only-after-dense: not with delsurf1");
   report = RunReport{};
   Refinement refinement(oracle, options.surface, options.control, options.variant, report);
   RunBudget& budget = refinement.budget();

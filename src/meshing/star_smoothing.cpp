@@ -35,7 +35,9 @@ Vector3 gradient_of_cosine(const Vector3& p, const Vector3& ep, const Vector3& q
 
 }  // namespace
 
+// What is at a vertex; false if that must not move.
 bool StarSmoothing::gather(std::uint32_t vertex) {
+  if (mesh_.fixed(vertex)) return false;
   vertex_ = vertex;
   star_.clear();
   fan_.clear();
@@ -177,7 +179,7 @@ double StarSmoothing::displace(std::uint32_t vertex, const Vector3& step, Point3
 }
 
 double StarSmoothing::improve(std::uint32_t vertex, Point3& place) {
-  if (mesh_.fixed(vertex) || !gather(vertex)) return 0;
+  if (!gather(vertex)) return 0;
   State state;
   if (!measure(mesh_.point(vertex), state, kInfinity)) return 0;
   const double before = state.shortfall;

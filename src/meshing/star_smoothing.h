@@ -21,7 +21,7 @@ class StarSmoothing {
   /// A better place for a vertex: by how much shortfalls become less there, and the place; 0 if none is found.
   double improve(std::uint32_t vertex, Point3& place);
   /// A place one step away, for vertices of the boundary on the surface beside it, better or worse: by how much
-  /// shortfalls become less there, and the place; less infinity if another bound would break.
+  /// shortfalls become less there, and the place; less infinity if another bound would break, or if the vertex is fixed.
   double displace(std::uint32_t vertex, const Vector3& step, Point3& place);
 
  private:

@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "support/test_samples.h"
-#include "tools/run_delvox.h"
+#include "tools/cli_fixture.h"
 
 namespace delvox::test {
 namespace {
@@ -24,32 +24,12 @@ std::string csv_of(const Samples& samples) {
   return text;
 }
 
-class CliSamples : public ::testing::Test {
+class CliSamples : public CliFixture {
  protected:
   std::string write(const std::string& name, const Samples& samples) {
     write_file(folder_ / name, csv_of(samples));
     return folder_ / name;
   }
-
-  json run(std::vector<std::string> arguments) {
-    arguments.push_back("--json");
-    const Outcome outcome = run_delvox(arguments);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    return json::parse(outcome.out, nullptr, false);
-  }
-
-  // With --quiet: the code, one line on stderr that mentions all of `words`, and no file.
-  void expect_failure(int code, std::vector<std::string> arguments, const std::vector<std::string>& words) {
-    const auto before = folder_.names();
-    arguments.push_back("--quiet");
-    const Outcome outcome = run_delvox(arguments);
-    EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_EQ(line_count(outcome.err), 1u) << outcome.err;
-    for (const std::string& word : words) EXPECT_NE(outcome.err.find(word), std::string::npos) << outcome.err;
-    EXPECT_EQ(folder_.names(), before);
-  }
-
-  TemporaryFolder folder_;
 };
 
 const double kBallMm3 = 4.0 / 3 * std::numbers::pi * 0.7 * 0.7 * 0.7;
