@@ -17,7 +17,8 @@ void Refinement::keep_features(double longest, bool solid) {
   if (edges->edges.empty()) return;
   solid_ = solid;
   // A segment's ball at the floor is as small as a surface ball that is left alone.
-  features_.emplace(std::move(*edges), surface_.size, longest, 2 * surface_.min_ball_radius);
+  features_.emplace(std::move(*edges), surface_.size, longest, 2 * surface_.min_ball_radius,
+                    [this] { return budget_.go_on(0, 0); });
 }
 
 /// Nodes of segments become vertices first of all; then what is mirrored beside them; then seeds that are as far from
@@ -32,7 +33,7 @@ void Refinement::insert_seeds_beside_features(const Seeds& seeds, const GoOn& go
     points.push_back(features_->node(n));
     thinner.add(points.back(), spacing(points.back()));
   }
-  for (const Point3& p : mirrored_points(*features_, oracle_, solid_, thinner)) points.push_back(p);
+  for (const Point3& p : mirrored_points(*features_, oracle_, solid_, thinner, go_on)) points.push_back(p);
   std::vector<bool> sharp(seeds.components, false), met(seeds.components, false);
   for (std::uint32_t s = 0; s < features_->segment_count(); ++s) sharp[features_->edge(s).component] = true;
   for (std::size_t i = 0; i < seeds.points.size(); ++i) {

@@ -21,14 +21,15 @@ class Rings {
   Rings(const FeatureSegments& segments, const Oracle& oracle, bool solid, PoissonThinner& thinner)
       : segments_(segments), oracle_(oracle), solid_(solid), thinner_(thinner) {}
 
-  std::vector<Point3> run() {
-    for (std::uint32_t s = 0; s < segments_.segment_count(); ++s) {
+  std::vector<Point3> run(const GoOn& go_on) {
+    const std::uint32_t count = segments_.segment_count();
+    for (std::uint32_t s = 0; s < count && go_on(); ++s) {
       for (std::size_t end = 0; end < 2; ++end) add_under(s, end);
     }
     bool any = true;
     for (int row = 0; any; ++row) {
       any = false;
-      for (std::uint32_t s = 0; s < segments_.segment_count(); ++s) any |= add_row(s, row);
+      for (std::uint32_t s = 0; s < count && go_on(); ++s) any |= add_row(s, row);
     }
     return std::move(points_);
   }
@@ -116,8 +117,8 @@ class Rings {
 }  // namespace
 
 std::vector<Point3> mirrored_points(const FeatureSegments& segments, const Oracle& oracle, bool solid,
-                                    PoissonThinner& thinner) {
-  return Rings(segments, oracle, solid, thinner).run();
+                                    PoissonThinner& thinner, const GoOn& go_on) {
+  return Rings(segments, oracle, solid, thinner).run(go_on);
 }
 
 }  // namespace delvox

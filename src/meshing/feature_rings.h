@@ -15,8 +15,8 @@ namespace delvox {
 /// would take samples which happen to mirror each other. Likewise below lines that rise from a facet at a small angle,
 /// as where three facets meet in a flat corner. Not in the book. Points keep clear of segments and of what `thinner`
 /// holds, which they join. `solid`: tets between the facets are to have bounded radius-edge ratios, but for those with a
-/// corner on the segment.
+/// corner on the segment. Ends early once go_on() is false.
 std::vector<Point3> mirrored_points(const FeatureSegments& segments, const Oracle& oracle, bool solid,
-                                    PoissonThinner& thinner);
+                                    PoissonThinner& thinner, const GoOn& go_on = always_go_on);
 
 }  // namespace delvox

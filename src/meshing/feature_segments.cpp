@@ -31,7 +31,8 @@ Vector3 direction(const FeatureLine& line, bool from_last) {
 
 }  // namespace
 
-FeatureSegments::FeatureSegments(FeatureEdges edges, const SizeField& size, double longest, double shortest)
+FeatureSegments::FeatureSegments(FeatureEdges edges, const SizeField& size, double longest, double shortest,
+                                 const GoOn& go_on)
     : edges_(std::move(edges)),
       size_(size),
       longest_(longest),
@@ -47,9 +48,10 @@ FeatureSegments::FeatureSegments(FeatureEdges edges, const SizeField& size, doub
       ends[i] = known;
     }
     line_ends_.push_back(ends);
+    go_on();  // a line is not left out, but the run may be cancelled
     cut_line(l, ends, shells[l]);
   }
-  cut_encroached();
+  cut_encroached(go_on);
 }
 
 const FeatureEdges::Edge& FeatureSegments::edge(std::uint32_t segment) const {
@@ -171,10 +173,10 @@ void FeatureSegments::cut_piece(std::uint32_t line, Edge ends, double from, doub
   }
 }
 
-void FeatureSegments::cut_encroached() {
+void FeatureSegments::cut_encroached(const GoOn& go_on) {
   for (std::uint32_t n = 0; n < nodes_.size(); ++n) {
     while (const auto segment = encroached_by(nodes_[n], n)) {
-      if (!may_split(*segment)) break;
+      if (!may_split(*segment) || !go_on()) break;
       split(*segment);
     }
   }

@@ -26,8 +26,9 @@ class FeatureSegments {
   };
 
   /// Segments are no longer than 0.9 of the size along them, and 0.9 of `longest`. None is cut into parts shorter than
-  /// `shortest`, mm, unless may_split() says so; what would have to be is left encroached.
-  FeatureSegments(FeatureEdges edges, const SizeField& size, double longest, double shortest);
+  /// `shortest`, mm, unless may_split() says so; what would have to be, or once go_on() is false, is left encroached.
+  FeatureSegments(FeatureEdges edges, const SizeField& size, double longest, double shortest,
+                  const GoOn& go_on = always_go_on);
 
   std::size_t node_count() const { return nodes_.size(); }
   const Point3& node(std::uint32_t node) const { return nodes_[node]; }
@@ -65,7 +66,7 @@ class FeatureSegments {
   double shell_at(const std::vector<LineEnd>& there, const std::vector<std::array<bool, 2>>& acute) const;
   void cut_line(std::uint32_t line, const Edge& ends, const std::array<double, 2>& shells);
   void cut_piece(std::uint32_t line, Edge ends, double from, double to);
-  void cut_encroached();
+  void cut_encroached(const GoOn& go_on);
 
   FeatureEdges edges_;
   SizeField size_;

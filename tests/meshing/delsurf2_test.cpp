@@ -146,6 +146,22 @@ TEST(DelSurf2, WhatCannotBeDecidedIsToldOrRefined) {
   }
 }
 
+// On a sphere smaller than the distance to which vertices may approach each other, nothing can be inserted for it.
+TEST(DelSurf2, WhatStaysUndecidedBesideAVertexIsToldWithItsPlace) {
+  RunReport report;
+  const SurfaceMesh mesh = delsurf2(Loose("x^2+y^2+z^2-1e-8"), kBox, topology_only(), report);
+  EXPECT_EQ(report.stop, StopReason::kFinished);
+  EXPECT_FALSE(report.succeeded());
+  EXPECT_FALSE(mesh.info.complete);
+  ASSERT_FALSE(report.unmet.empty());
+  for (const Unmet& unmet : report.unmet) {
+    EXPECT_EQ(unmet.criterion, "topology");
+    EXPECT_TRUE(unmet.breaks_promise);
+    EXPECT_NE(unmet.reason.find("may"), std::string::npos) << unmet.reason;
+    EXPECT_NEAR(norm(unmet.where - Point3{}), 1e-4, 2e-5);
+  }
+}
+
 TEST(DelSurf2, SizesOfAVolumeAreTakenInTheWorld) {
   // Turned by a quarter and mirrored: the domain's own +x is the world's +y.
   SmoothDomain domain{make_smooth_function(Formula(kSphere)), kBox, {}};

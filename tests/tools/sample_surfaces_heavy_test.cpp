@@ -28,26 +28,39 @@ std::string half_of_default_size(const fs::path& surface) {
   return std::to_string(box.diagonal() / 120);
 }
 
-TEST(AllSampleSurfaces, EveryCleanClosedOneIsMeshedAndEachOtherRefused) {
+bool is_faulty(const std::string& name) { return std::find(kFaulty.begin(), kFaulty.end(), name) != kFaulty.end(); }
+
+/// One share of them, so that ctest may run the shares side by side.
+constexpr std::size_t kShares = 8;
+class AllSampleSurfaces : public testing::TestWithParam<std::size_t> {};
+INSTANTIATE_TEST_SUITE_P(Share, AllSampleSurfaces, testing::Range(std::size_t{0}, kShares));
+
+TEST_P(AllSampleSurfaces, EveryCleanClosedOneIsMeshedAndEachOtherRefused) {
   TemporaryFolder folder;
   const std::vector<fs::path> surfaces = unpack_sample_surfaces(folder);
   if (surfaces.empty()) GTEST_SKIP() << "skipped: libcgal-demo is not installed";
-  std::size_t meshed = 0, refused = 0;
-  for (const fs::path& surface : surfaces) {
+  for (std::size_t i = GetParam(); i < surfaces.size(); i += kShares) {
+    const fs::path& surface = surfaces[i];
     const std::string name = surface.filename().string();
-    if (std::find(kFaulty.begin(), kFaulty.end(), name) != kFaulty.end()) {
+    if (is_faulty(name)) {
       expect_refused(surface, folder);
-      ++refused;
     } else if (name == kPointsOnly) {
       EXPECT_EQ(run_delvox({"remesh", surface.string(), "-o", folder / "out.vtu", "--quiet"}).code, 3);
     } else {
       expect_meshed(surface, folder, {});
       expect_meshed(surface, folder, {"--size", half_of_default_size(surface)});
-      ++meshed;
     }
   }
-  EXPECT_EQ(meshed, 87u);
-  EXPECT_EQ(refused, kFaulty.size());
+}
+
+TEST(AllSampleSurfacesTogether, Are87CleanClosedOnes) {
+  TemporaryFolder folder;
+  const std::vector<fs::path> surfaces = unpack_sample_surfaces(folder);
+  if (surfaces.empty()) GTEST_SKIP() << "skipped: libcgal-demo is not installed";
+  const auto faulty = std::count_if(surfaces.begin(), surfaces.end(),
+                                    [](const fs::path& surface) { return is_faulty(surface.filename().string()); });
+  EXPECT_EQ(static_cast<std::size_t>(faulty), kFaulty.size());
+  EXPECT_EQ(surfaces.size(), 87 + kFaulty.size() + 1);
 }
 
 }  // namespace
