@@ -481,7 +481,12 @@ void run_meshing(const Verb& verb, const Arguments& arguments, MeshKind kind, In
   decide_input(app, options);
   Json report = run_header(verb, arguments);
   report["options"] = options_json(app);
-  MeshingRun(options).run(std::move(report));
+  try {
+    MeshingRun(options).run(std::move(report));
+  } catch (const NothingToMesh& error) {
+    if (options.volume.path.empty()) throw;
+    throw NothingToMesh(options.volume.path + ": " + error.what());
+  }
 }
 
 }  // namespace delvox::tools

@@ -94,7 +94,9 @@ SetRule parse_border(const std::string& text, const std::string& side, const Mes
     fail(text, "write border:xmin, or xmax, ymin, ymax, zmin, zmax");
   }
   if (image != nullptr) return border_rule(static_cast<int>(axis), end == "max", *image);
-  if (!images_later) fail(text, "the border is that of a volume; give this set to `delvox tet`");
+  if (!images_later) {
+    fail(text, "only a volume has a border, known only while `delvox tet` meshes it; choose another rule, as plane");
+  }
   return AllRule{};
 }
 

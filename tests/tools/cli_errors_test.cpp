@@ -153,7 +153,7 @@ TEST_F(CliErrors, FoldersThatHoldNoStackExitWith3) {
 }
 
 TEST_F(CliErrors, NothingToMeshExitsWith4) {
-  expect_tet_failure(4, {"--iso", "1e6"});
+  expect_tet_failure(4, {"--iso", "1e6"}, {volume() + ": isovalue"});
   expect_tet_failure(4, {"--crop", "100:200,0:5,0:5"});
   expect_tet_failure(4, {"--min-component", "1e9"}, {"--min-component"});
 }
