@@ -3,9 +3,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <utility>
-#include <vector>
+
+#include "core/page_array.h"
 
 namespace delvox {
 
@@ -14,7 +14,10 @@ namespace delvox {
 /// union-find problem, 1991).
 class UnionFind {
  public:
-  explicit UnionFind(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit UnionFind(std::size_t count) {
+    parent_.grow_to(count);
+    for (std::size_t i = 0; i < count; ++i) parent_[i] = static_cast<std::uint32_t>(i);
+  }
   std::uint32_t root(std::uint32_t i) {
     while (true) {
       const std::uint32_t parent = load(i), grandparent = load(parent);
@@ -43,7 +46,7 @@ class UnionFind {
  private:
   std::atomic_ref<std::uint32_t> at(std::uint32_t i) { return std::atomic_ref<std::uint32_t>(parent_[i]); }
   std::uint32_t load(std::uint32_t i) { return at(i).load(std::memory_order_relaxed); }
-  std::vector<std::uint32_t> parent_;
+  PageArray<std::uint32_t> parent_;
 };
 
 }  // namespace delvox

@@ -89,9 +89,9 @@ class RestrictedDelaunay {
   const SurfaceBall* ball(FacetId facet) const { return balls_.find(facet); }
   /// Whether any facet of the cell has a computed ball.
   bool has_balls(CellId cell) const { return balls_.any(cell); }
-  /// As if none had been computed.
-  void drop_balls() {
-    balls_.clear();
+  /// Frees what balls take: none is asked for any more.
+  void retire_balls() {
+    balls_.retire();
     lane_.balls = {};
   }
   /// Computes and keeps the surface Delaunay ball. pre: bipolar(facet).

@@ -6,6 +6,18 @@
 
 namespace delvox {
 
+/// visit(facet) for each restricted triangle of the cells from `begin` to `end`, from the side of the larger label.
+template <class Visit>
+void for_each_restricted_triangle(const RestrictedDelaunay& delaunay, std::size_t begin, std::size_t end,
+                                  const Visit& visit) {
+  for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
+    if (delaunay.stamp(cell) == 0 || delaunay.label(cell) == 0) continue;
+    for (int i = 0; i < 4; ++i) {
+      if (delaunay.label(cell) > delaunay.label(delaunay.neighbors(cell)[i])) visit(FacetId{cell, i});
+    }
+  }
+}
+
 /// All restricted triangles, each from the side of the larger label, in the order of the cells there.
 std::vector<FacetId> restricted_triangles(const RestrictedDelaunay& delaunay);
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "core/page_array.h"
@@ -17,7 +18,7 @@ struct SurfaceBall {
   bool several = false;  ///< the triangle has others too
 };
 
-/// The balls of facets, each known from both of its sides. A cell costs four bytes until one of its facets has a ball.
+/// The balls of facets, each known from both of its sides. A cell costs four bytes until two of its facets have balls.
 /// Different cells can be changed at the same time, each with a room of its own.
 class SurfaceBalls {
  public:
@@ -32,9 +33,9 @@ class SurfaceBalls {
     entries_.grow_to(capacity);
     for (std::size_t cell = before; cell < capacity; ++cell) entries_[cell] = kNone;
   }
-  /// Drops all balls and frees their memory. pre: no room is in use.
-  void clear() {
-    for (std::size_t cell = 0; cell < entries_.size(); ++cell) entries_[cell] = kNone;
+  /// Frees all memory, once nothing is asked any more. pre: no room is in use.
+  void retire() {
+    entries_.free();
     numbers_.free();
     balls_.free();
     free_ = Room();
@@ -47,7 +48,8 @@ class SurfaceBalls {
   }
   std::uint32_t number_of(FacetId facet) const {
     const std::uint32_t entry = entries_[facet.cell];
-    return entry == kNone ? kNone : numbers_[entry][facet.index];
+    if (entry < kSeveral) return entry % 4 == static_cast<std::uint32_t>(facet.index) ? entry / 4 : kNone;
+    return entry == kNone ? kNone : numbers_[entry - kSeveral][facet.index];
   }
 
   /// Puts into the room what so many cells and balls may take. Not to be called beside anything else.
@@ -73,24 +75,31 @@ class SurfaceBalls {
   /// Says which ball a facet has, seen from its cell: kNone for none.
   void set(FacetId facet, std::uint32_t number, Room& room) {
     std::uint32_t& entry = entries_[facet.cell];
-    if (entry == kNone) {
-      if (number == kNone) return;
-      entry = take(room.entries);
-      numbers_[entry] = kNoBalls;
+    const auto index = static_cast<std::uint32_t>(facet.index);
+    if (entry == kNone || (entry < kSeveral && entry % 4 == index)) {
+      entry = number == kNone ? kNone : 4 * number + index;
+      return;
     }
-    auto& numbers = numbers_[entry];
+    if (entry < kSeveral) {
+      if (number == kNone) return;
+      const std::uint32_t only = std::exchange(entry, kSeveral + take(room.entries));
+      numbers_[entry - kSeveral] = kNoBalls;
+      numbers_[entry - kSeveral][only % 4] = only / 4;
+    }
+    auto& numbers = numbers_[entry - kSeveral];
     numbers[facet.index] = number;
     if (numbers == kNoBalls) forget(facet.cell, room);
   }
   /// The cell has no balls any more; they are not freed.
   void forget(CellId cell, Room& room) {
     std::uint32_t& entry = entries_[cell];
-    if (entry != kNone) room.entries.push_back(entry);
+    if (entry >= kSeveral && entry != kNone) room.entries.push_back(entry - kSeveral);
     entry = kNone;
   }
 
  private:
   static constexpr std::array<std::uint32_t, 4> kNoBalls{kNone, kNone, kNone, kNone};
+  static constexpr std::uint32_t kSeveral = 1u << 31;
 
   static std::uint32_t take(std::vector<std::uint32_t>& unused) {
     const std::uint32_t number = unused.back();
@@ -113,8 +122,8 @@ class SurfaceBalls {
     }
   }
 
-  PageArray<std::uint32_t> entries_;                 // per cell: its place in numbers_
-  PageArray<std::array<std::uint32_t, 4>> numbers_;  // per facet of such a cell: its ball
+  PageArray<std::uint32_t> entries_;  // per cell: four times its only ball plus the facet; or kSeveral plus its place in
+  PageArray<std::array<std::uint32_t, 4>> numbers_;  // per facet: its ball
   PageArray<SurfaceBall> balls_;
   Room free_;
 };

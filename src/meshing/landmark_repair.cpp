@@ -152,12 +152,12 @@ std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Poi
 bool Refinement::repair_pieces() {
   if (!pieces_changed_) return false;
   pieces_changed_ = false;
-  const Pieces pieces = find_pieces(delaunay_);
-  std::vector<bool> real(pieces.count, false);
-  std::uint32_t unknown = pieces.count;
+  Pieces pieces(delaunay_);
+  std::vector<bool> real(pieces.count(), false);
+  std::uint32_t unknown = pieces.count();
   CellId hint = delaunay_.some_cell();
   for (std::uint32_t i = 0; i < watch_.size() && unknown > 0; ++i) {
-    const std::uint32_t piece = pieces.of_cell[hint = cell_of_landmark({i}, hint)];
+    const std::uint32_t piece = pieces.of(hint = cell_of_landmark({i}, hint));
     unknown -= !real[piece];
     real[piece] = true;
   }
@@ -171,11 +171,12 @@ bool Refinement::repair_pieces() {
 }
 
 /// The largest ball of each piece that is not real, the others' being empty.
-std::vector<SurfaceBall> Refinement::largest_balls(const Pieces& pieces, const std::vector<bool>& real) const {
-  std::vector<SurfaceBall> largest(pieces.count);
+std::vector<SurfaceBall> Refinement::largest_balls(Pieces& pieces, const std::vector<bool>& real) const {
+  std::vector<SurfaceBall> largest(pieces.count());
   for (CellId cell = 0; cell < delaunay_.cell_capacity(); ++cell) {
-    const std::uint32_t piece = pieces.of_cell[cell];
-    if (piece == kNone || real[piece] || !delaunay_.has_balls(cell)) continue;
+    if (!delaunay_.has_balls(cell)) continue;
+    const std::uint32_t piece = pieces.of(cell);
+    if (real[piece]) continue;
     for (int i = 0; i < 4; ++i) {
       const SurfaceBall* ball = delaunay_.ball({cell, i});
       if (ball != nullptr && ball->squared_radius > largest[piece].squared_radius) largest[piece] = *ball;

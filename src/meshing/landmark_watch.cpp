@@ -34,7 +34,7 @@ LandmarkWatch::LandmarkWatch(Landmarks landmarks)
 void LandmarkWatch::sort_into_cubes() {
   for (const Point3& p : points_) box_.extend(p);
   // Landmarks lie on the surface's voxels: cubes of two links' width hold a handful each.
-  const double most_cubes = 4.0 * static_cast<double>(points_.size()) + 64;
+  const double most_cubes = static_cast<double>(points_.size()) + 64;
   const Vector3 extent = box_.max - box_.min;
   width_ =
       std::max({2 * reach_, std::cbrt(extent.x * extent.y * extent.z / most_cubes), 1e-300, box_.diagonal() / 1000});

@@ -109,6 +109,8 @@ class Refinement {
   };
   /// A matter of the mesh alone, never of the number of threads.
   static constexpr std::size_t kLanes = 8;
+  /// Copies of this many entries are a burden once they are freed.
+  static constexpr std::size_t kManyWaiting = 1 << 15;
   /// kTwoFaced: faces inside or outside with both sides, and its ball is too small to be split.
   enum class Verdict { kGood, kSplit, kTooDeviant, kTwoFaced };
   /// Of one component; vertices that are not there are kNone.
@@ -212,7 +214,7 @@ class Refinement {
   bool insert_where_misplaced(const std::vector<MisplacedCell>& misplaced);
   bool repair_pieces();
   std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell, const Point3& b, CellId last) const;
-  std::vector<SurfaceBall> largest_balls(const Pieces& pieces, const std::vector<bool>& real) const;
+  std::vector<SurfaceBall> largest_balls(Pieces& pieces, const std::vector<bool>& real) const;
   Box3 box_of_change(const Star& star) const;
   void note_change(const Box3& box, VertexId near);
   void note_new_facets();

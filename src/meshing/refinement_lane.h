@@ -34,6 +34,22 @@ struct RefinementQueues {
   }
 };
 
+/// Vertices, each once, in the order in which they came first.
+class VertexList {
+ public:
+  void add(VertexId vertex) {
+    if (vertex >= listed_.size()) listed_.resize(vertex + 1 + vertex / 2, false);
+    if (listed_[vertex]) return;
+    listed_[vertex] = true;
+    list_.push_back(vertex);
+  }
+  const std::vector<VertexId>& all() const { return list_; }
+
+ private:
+  std::vector<VertexId> list_;
+  std::vector<bool> listed_;
+};
+
 /// A lane of refinement: its share of the queues, what it is about to do, and what there is to tell of it.
 struct RefinementLane {
   struct JudgedFacet {
@@ -58,7 +74,7 @@ struct RefinementLane {
   // For Refinement to collect.
   RefinementQueues aside;  ///< what can only be treated with no other lane beside
   std::vector<RefinementQueues::WaitingFacet> two_faced;
-  std::vector<VertexId> dirty;
+  VertexList dirty;
   std::vector<Change> changes;
   std::size_t surface_insertions = 0, interior_insertions = 0, too_deviant = 0, stuck = 0;
   Point3 deviant_place, stuck_place;

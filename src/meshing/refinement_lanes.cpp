@@ -2,6 +2,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/freed_memory.h"
 #include "core/parallel.h"
 #include "delaunay/spatial_order.h"
 #include "meshing/refinement.h"
@@ -91,7 +92,9 @@ void Refinement::run_lanes(RefinementQueues& aside) {
     take_share(queues_.facets, queues_.next_facet, i, kLanes, lanes_[i].queues.facets);
     take_share(queues_.tets, 0, i, kLanes, lanes_[i].queues.tets);
   }
+  const bool many = queues_.waiting() > kManyWaiting;
   queues_ = {};
+  if (many) give_back_freed_memory();  // what it took to sort them
   const auto for_each_lane = [&](const auto& visit) {
     delaunay_.team().for_each(kLanes, [&](std::size_t i) { visit(lanes_[i]); });
   };
@@ -148,7 +151,7 @@ void Refinement::furnish(RefinementLane& lane) {
 }
 
 void Refinement::collect(RefinementLane& lane) {
-  for (VertexId vertex : lane.dirty) mark_dirty(vertex);
+  for (VertexId vertex : lane.dirty.all()) mark_dirty(vertex);
   for (const RefinementLane::Change& change : lane.changes) note_change(change.box, change.near);
   report_.surface_insertions += std::exchange(lane.surface_insertions, 0);
   report_.interior_insertions += std::exchange(lane.interior_insertions, 0);
@@ -158,8 +161,8 @@ void Refinement::collect(RefinementLane& lane) {
   stuck_ += std::exchange(lane.stuck, 0);
   two_faced_.insert(two_faced_.end(), lane.two_faced.begin(), lane.two_faced.end());
   lane.two_faced.clear();
-  lane.dirty.clear();
-  lane.changes.clear();
+  lane.dirty = {};
+  lane.changes = {};
   delaunay_.clear_out(lane.lane);
 }
 
@@ -172,7 +175,8 @@ void Refinement::retire() {
   clear(watch_);
   clear(landmark_places_);
   clear(since_edges_);
-  delaunay_.drop_balls();
+  delaunay_.retire_balls();
+  give_back_freed_memory();
 }
 
 /// Finds out what is to be done next, and claims what that touches: steps 2 and 3 first, step 7 only if no facet waits.
@@ -277,8 +281,7 @@ void Refinement::keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ba
 }
 
 void Refinement::mark_dirty(RefinementLane& lane, FacetId facet) const {
-  const auto vertices = delaunay_.vertices(facet);
-  lane.dirty.insert(lane.dirty.end(), vertices.begin(), vertices.end());
+  for (VertexId vertex : delaunay_.vertices(facet)) lane.dirty.add(vertex);
 }
 
 /// Does what look() has found, as far as the lane holds its claims: what it does not waits on.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/freed_memory.h"
 #include "core/parallel.h"
 #include "meshing/refinement.h"
 
@@ -22,6 +23,7 @@ double shortest_squared_edge(const RestrictedDelaunay& delaunay, CellId cell) {
 
 void Refinement::watch_tets(const TetCriteria& criteria) {
   tet_criteria_ = &criteria;
+  give_back_freed_memory();  // what seeds and lattice took, while the mesh was small
   constexpr std::size_t kChunk = 4096;
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<RefinementQueues::WaitingTet>& found) {
     for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {

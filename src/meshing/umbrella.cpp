@@ -5,6 +5,7 @@
 #include <atomic>
 #include <span>
 
+#include "core/page_array.h"
 #include "core/parallel.h"
 #include "delaunay/restricted_triangles.h"
 
@@ -12,6 +13,11 @@ namespace delvox {
 namespace {
 
 using LinkEdge = std::array<VertexId, 2>;
+
+/// The edge of a triangle that lies opposite a corner, directed as the triangle is.
+LinkEdge opposite(const std::array<VertexId, 3>& triangle, int corner) {
+  return {triangle[(corner + 1) % 3], triangle[(corner + 2) % 3]};
+}
 
 /// Do the edges, each directed as its triangle is, form exactly one cycle? There are few: looking through all for the
 /// next is faster than sorting them.
@@ -37,35 +43,38 @@ class Links {
  public:
   explicit Links(const RestrictedDelaunay& delaunay) : first_(delaunay.vertex_capacity() + 1, 0) {
     constexpr std::size_t kChunk = 1 << 12;
-    const std::vector<FacetId> facets = restricted_triangles(delaunay);
-    std::vector<std::array<VertexId, 3>> triangles(facets.size());
+    using Corners = std::array<VertexId, 3>;
+    const auto triangles = gather_chunks<Corners>(
+        delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end, std::vector<Corners>& found) {
+          for_each_restricted_triangle(delaunay, begin, end,
+                                       [&](FacetId facet) { found.push_back(delaunay.vertices(facet)); });
+        });
+    const auto for_each_corner = [&](const auto& visit) {
+      for_each_chunk(triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          for (int corner = 0; corner < 3; ++corner) visit(triangles[i], corner);
+        }
+      });
+    };
     const auto count_one = [](std::uint32_t& counter) {
       return std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed);
     };
-    for_each_chunk(facets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        triangles[i] = delaunay.vertices(facets[i]);
-        for (VertexId v : triangles[i]) count_one(first_[v + 1]);
-      }
-    });
+    for_each_corner([&](const Corners& triangle, int corner) { count_one(first_[triangle[corner] + 1]); });
     for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    edges_.resize(3 * triangles.size());
-    for_each_chunk(triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const auto& t = triangles[i];
-        for (int c = 0; c < 3; ++c) edges_[count_one(next[t[c]])] = {t[(c + 1) % 3], t[(c + 2) % 3]};
-      }
+    edges_.grow_to(first_.back());
+    for_each_corner([&](const Corners& triangle, int corner) {
+      edges_[count_one(next[triangle[corner]])] = opposite(triangle, corner);
     });
   }
 
   std::span<const LinkEdge> of(VertexId vertex) const {
-    return {edges_.data() + first_[vertex], edges_.data() + first_[vertex + 1]};
+    return {&edges_[0] + first_[vertex], &edges_[0] + first_[vertex + 1]};
   }
 
  private:
   std::vector<std::uint32_t> first_;
-  std::vector<LinkEdge> edges_;
+  PageArray<LinkEdge> edges_;
 };
 
 }  // namespace
@@ -82,7 +91,7 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
       const auto own = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
       if (own == 3) continue;
       umbrella.facets.push_back({cell, i});
-      link.push_back({corners[(own + 1) % 3], corners[(own + 2) % 3]});
+      link.push_back(opposite(corners, static_cast<int>(own)));
     }
   }
   umbrella.disk = is_one_cycle(link);

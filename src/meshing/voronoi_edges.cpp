@@ -117,21 +117,21 @@ bool Refinement::look_closer() {
 
 /// Of the surface as it is. pre: every umbrella is a disk.
 SurfaceTopology Refinement::topology() const {
-  const std::vector<FacetId> triangles = restricted_triangles(delaunay_);
   UnionFind components(delaunay_.vertex_capacity());
   std::vector<bool> met(delaunay_.vertex_capacity());
-  std::size_t vertices = 0;
-  for (FacetId facet : triangles) {
+  std::size_t vertices = 0, triangles = 0;
+  for_each_restricted_triangle(delaunay_, 0, delaunay_.cell_capacity(), [&](FacetId facet) {
     const auto corners = delaunay_.vertices(facet);
     for (VertexId v : corners) {
       vertices += !met[v];
       met[v] = true;
       components.join(corners[0], v);
     }
-  }
+    ++triangles;
+  });
   const std::size_t elsewhere = delaunay_.vertex_capacity() - vertices;  // each a set of its own
   // A closed surface has three edges for every two triangles.
-  return {components.set_count() - elsewhere, static_cast<long>(vertices) - static_cast<long>(triangles.size() / 2)};
+  return {components.set_count() - elsewhere, static_cast<long>(vertices) - static_cast<long>(triangles / 2)};
 }
 
 }  // namespace delvox

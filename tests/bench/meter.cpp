@@ -30,13 +30,14 @@ double status_bytes(const std::string& key) {
 Meter::Meter() {
   malloc_trim(0);                               // what freed inputs left behind must not be reused unseen
   std::ofstream("/proc/self/clear_refs") << 5;  // the peak (VmHWM, that is ru_maxrss) starts again from here
-  resident_ = status_bytes("VmRSS");
+  resident_ = status_bytes("RssAnon");
   wall_ = seconds_of(CLOCK_MONOTONIC);
   cpu_ = seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
+/// Without the program's own code, which is read in as it is run: files that are mapped stay once they are there.
 double Meter::peak_bytes() const {
-  return status_bytes("VmHWM") - resident_;
+  return status_bytes("VmHWM") - status_bytes("RssFile") - status_bytes("RssShmem") - resident_;
 }
 
 void Meter::stop(BenchRun& run) const {

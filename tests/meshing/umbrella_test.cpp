@@ -102,18 +102,15 @@ TEST_P(RandomComplex, PiecesAreTheCellsOfOneLabelThatFacetsJoin) {
       if (n != RestrictedDelaunay::kBeyond && delaunay_.label(c) == delaunay_.label(n)) expected.join(c, n);
     }
   }
-  const Pieces pieces = find_pieces(delaunay_);
+  Pieces pieces(delaunay_);
   std::map<std::size_t, std::uint32_t> piece_of_root;
   for (CellId c = kFirst; c < delaunay_.cell_capacity(); ++c) {
-    if (!alive(c)) {
-      EXPECT_EQ(pieces.of_cell[c], kNone);
-      continue;
-    }
-    ASSERT_LT(pieces.of_cell[c], pieces.count);
-    const auto [entry, is_new] = piece_of_root.try_emplace(expected.root(c), pieces.of_cell[c]);
-    EXPECT_EQ(entry->second, pieces.of_cell[c]);
+    if (!alive(c)) continue;
+    ASSERT_LT(pieces.of(c), pieces.count());
+    const auto [entry, is_new] = piece_of_root.try_emplace(expected.root(c), pieces.of(c));
+    EXPECT_EQ(entry->second, pieces.of(c));
   }
-  EXPECT_EQ(piece_of_root.size(), pieces.count);
+  EXPECT_EQ(piece_of_root.size(), pieces.count());
 }
 
 TEST_P(RandomComplex, ExtractionGivesTheInsideCellsAndTheirBoundary) {
