@@ -55,12 +55,6 @@ void Delaunay3::make_first_cell() {
   cells_[first].neighbors = {kOutside, kOutside, kOutside, kOutside};
 }
 
-std::array<VertexId, 3> Delaunay3::vertices(FacetId facet) const {
-  const auto& corners = kTetFaces[facet.index];
-  const auto& v = cells_[facet.cell].vertices;
-  return {v[corners[0]], v[corners[1]], v[corners[2]]};
-}
-
 /// The visibility walk: through any facet that has p on its far side. It ends in every Delaunay triangulation.
 CellId Delaunay3::locate(const Point3& p, CellId hint) const {
   CellId cell = hint, came_from = kNone;

@@ -13,6 +13,7 @@
 #include "delaunay/star.h"
 #include "delaunay/star_search.h"
 #include "delvox/core/geometry.h"
+#include "delvox/core/mesh.h"
 
 namespace delvox {
 
@@ -49,7 +50,11 @@ class Delaunay3 {
   const std::array<CellId, 4>& neighbors(CellId cell) const { return cells_[cell].neighbors; }
   const Circumsphere& sphere(CellId cell) const { return cells_[cell].sphere; }
   /// Counter-clockwise seen from outside the cell.
-  std::array<VertexId, 3> vertices(FacetId facet) const;
+  std::array<VertexId, 3> vertices(FacetId facet) const {
+    const auto& corners = kTetFaces[facet.index];
+    const auto& v = cells_[facet.cell].vertices;
+    return {v[corners[0]], v[corners[1]], v[corners[2]]};
+  }
   /// The same facet, of the cell on its other side. pre: that is not the cell outside.
   FacetId mirror(FacetId facet) const {
     const CellId other = cells_[facet.cell].neighbors[facet.index];

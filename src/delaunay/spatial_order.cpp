@@ -12,32 +12,33 @@ namespace {
 
 constexpr int kBits = 16;  // per axis
 
+/// The low 21 bits of x, two free ones between each and the next.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x001f00000000ffff;
+  x = (x | x << 16) & 0x001f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
 /// Where a cell of the 2^kBits grid comes along Hilbert's curve (Skilling, "Programming the Hilbert curve", 2004): the
-/// coordinates are turned, level by level, into those of the curve's own frame.
+/// coordinates are turned, level by level, into those of the curve's own frame. Without branches: which way each would
+/// go is as good as random.
 std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
-  for (std::uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1) {
-    const std::uint32_t below = bit - 1;
+  for (int level = kBits - 1; level > 0; --level) {
+    const std::uint32_t below = (1u << level) - 1;
     for (int axis = 0; axis < 3; ++axis) {
-      if (x[axis] & bit) {
-        x[0] ^= below;
-      } else {
-        const std::uint32_t swapped = (x[0] ^ x[axis]) & below;
-        x[0] ^= swapped;
-        x[axis] ^= swapped;
-      }
+      const std::uint32_t set = 0 - (x[axis] >> level & 1);  // all ones or all zeros
+      const std::uint32_t swapped = (x[0] ^ x[axis]) & below & ~set;
+      x[0] ^= swapped | (below & set);
+      x[axis] ^= swapped;
     }
   }
   x[1] ^= x[0];
   x[2] ^= x[1];
-  std::uint32_t parity = 0;
-  for (std::uint32_t bit = 1u << (kBits - 1); bit > 1; bit >>= 1) {
-    if (x[2] & bit) parity ^= bit - 1;
-  }
-  std::uint64_t index = 0;
-  for (int bit = kBits - 1; bit >= 0; --bit) {
-    for (int axis = 0; axis < 3; ++axis) index = index << 1 | ((x[axis] ^ parity) >> bit & 1);
-  }
-  return index;
+  std::uint32_t parity = x[2] >> 1;  // of the bits above each
+  for (int step = 1; step < kBits; step *= 2) parity ^= parity >> step;
+  return spread(x[0] ^ parity) << 2 | spread(x[1] ^ parity) << 1 | spread(x[2] ^ parity);
 }
 
 /// Rounds halve in size going back from the last: the last holds half of the points.

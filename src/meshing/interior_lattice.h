@@ -55,8 +55,8 @@ class InteriorLattice {
   bool lay_out(const RestrictedDelaunay& delaunay);
   bool find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on);
   bool block_near_surface(const RestrictedDelaunay& delaunay);
-  bool block_near_cell(const RestrictedDelaunay& delaunay, CellId cell, std::uint32_t since,
-                       std::vector<std::uint8_t>& met);
+  bool block_near_corners(const RestrictedDelaunay& delaunay, CellId cell, std::vector<std::uint8_t>& met);
+  bool block_near_balls(const RestrictedDelaunay& delaunay, CellId cell, std::uint32_t since);
   bool block_around(const Point3& p, double radius);
   bool block_removed(const RestrictedDelaunay& delaunay);
   bool touches(int depth, Site site) const;
