@@ -47,7 +47,9 @@ void FrameChange::apply(Mesh& mesh) const {
 }
 
 void FrameChange::apply(RunReport& report) const {
-  for (Unmet& unmet : report.unmet) unmet.where = (*this)(unmet.where);
+  for (Unmet& unmet : report.unmet) {
+    if (unmet.where) unmet.where = (*this)(*unmet.where);
+  }
 }
 
 void FrameChange::apply(SliverReport& report) const {

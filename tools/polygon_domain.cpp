@@ -56,7 +56,7 @@ class PolygonDomain final : public MeshingDomain {
   void finish(Mesh&) const override {}
 
   std::optional<Unmet> shortfall(const CheckReport& check) const override {
-    return topology_shortfall(check, oracle_->topology(), "the input", frame_(box_.center()));
+    return topology_shortfall(check, oracle_->topology(), "the input");
   }
   std::string advice() const override {
     return "where the surface is sharper than a right angle or thinner than the size, try a smaller --size, or see "

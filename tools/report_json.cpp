@@ -202,7 +202,7 @@ Json to_json(const RunReport& report) {
   for (const Unmet& u : report.unmet) {
     unmet.push_back({{"criterion", u.criterion},
                      {"count", u.count},
-                     {"where", to_json(u.where)},
+                     {"where", u.where ? to_json(*u.where) : Json(nullptr)},
                      {"reason", u.reason},
                      {"breaks_promise", u.breaks_promise}});
   }

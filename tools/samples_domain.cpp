@@ -53,7 +53,7 @@ class SamplesDomain final : public MeshingDomain {
   void finish(Mesh& mesh) const override { carry_isosurface(chosen_.surface, mesh); }
 
   std::optional<Unmet> shortfall(const CheckReport& check) const override {
-    return topology_shortfall(check, oracle_->topology(), "the linear interpolant", frame_(inside_.box.center()));
+    return topology_shortfall(check, oracle_->topology(), "the linear interpolant");
   }
   std::string advice() const override { return advice_on_ties(input_->field, chosen_.surface); }
   std::string how_to_shrink() const override { return "leave out samples away from what is to be meshed"; }

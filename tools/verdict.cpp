@@ -32,16 +32,17 @@ std::string mend(const RunReport& run) {
 }  // namespace
 
 std::string describe(const Unmet& unmet) {
-  std::string text = unmet.criterion + ": " + plural(unmet.count, "place") + ", first near " + point(unmet.where);
+  std::string text = unmet.criterion;
+  if (unmet.where) text += ": " + plural(unmet.count, "place") + ", first near " + point(*unmet.where);
   if (!unmet.reason.empty()) text += " (" + unmet.reason + ")";
   return text;
 }
 
 std::optional<Unmet> topology_shortfall(const CheckReport& check, const std::optional<SurfaceTopology>& input,
-                                        const std::string& who, const Point3& where) {
+                                        const std::string& who) {
   const SurfaceTopology mesh{check.statistics.surface_components, check.statistics.euler};
   if (!input || mesh == *input) return std::nullopt;
-  return Unmet{"topology", 1, where,
+  return Unmet{"topology", 1, std::nullopt,
                plural(mesh.components, "component") + " and Euler number " + std::to_string(mesh.euler) + ", " + who +
                    " has " + std::to_string(input->components) + " and " + std::to_string(input->euler) +
                    ": parts thinner than the size",

@@ -21,11 +21,10 @@ std::string verdict(const CheckReport& check);
 std::string advice_on(const Ties& ties);
 
 /// What a mesh that holds all its promises lacks of its input, if that counts its own topology. `who`: "the input".
-/// `where`: some place, in the output frame.
 std::optional<Unmet> topology_shortfall(const CheckReport& check, const std::optional<SurfaceTopology>& input,
-                                        const std::string& who, const Point3& where);
+                                        const std::string& who);
 
-/// "topology: 3 places, first near x, y, z (reason)".
+/// "topology: 3 places, first near x, y, z (reason)", or "topology (reason)".
 std::string describe(const Unmet& unmet);
 
 }  // namespace delvox::tools

@@ -90,9 +90,7 @@ class VolumeDomain final : public MeshingDomain {
     const std::size_t wanted = filter_report_.kept_components;
     const std::size_t pieces = check.statistics.surface_components - check.statistics.cavities;
     if (wanted == 0 || pieces == wanted || options_.border == "open") return std::nullopt;
-    const auto& dims = volume_->dims();
-    const Point3 middle{0.5 * (dims[0] - 1), 0.5 * (dims[1] - 1), 0.5 * (dims[2] - 1)};
-    return Unmet{"topology", 1, frame_(volume_->header().index_to_world(middle)),
+    return Unmet{"topology", 1, std::nullopt,
                  "the mesh is in " + plural(pieces, "piece") + ", the isosurface in " + grouped(wanted) +
                      ": parts thinner than the size",
                  false};

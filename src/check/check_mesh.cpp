@@ -72,9 +72,7 @@ class MeshChecker {
         builder_(report_) {}
 
   CheckReport run() {
-    Tally incomplete;
-    if (!info_.complete) incomplete.add({});
-    builder_.count("complete run", incomplete, info_.complete ? "" : "the mesh says that a limit stopped its run");
+    builder_.fault_of_all("complete run", !info_.complete, "the mesh says that its run was stopped or missed a bound");
     if (!check_arrays()) return std::move(report_);
     precision_ = coordinate_precision();
     check_points();

@@ -14,16 +14,29 @@ void ReportBuilder::put(Check check) {
   report_.checks.push_back(std::move(check));
 }
 
-void ReportBuilder::count(const std::string& name, const Tally& faults, const std::string& note) {
+namespace {
+
+Check counted(const std::string& name, std::size_t count, const std::string& note) {
   Check check;
   check.name = name;
-  check.status = faults.count == 0 ? CheckStatus::kPassed : CheckStatus::kFailed;
-  check.measured = static_cast<double>(faults.count);
+  check.status = count == 0 ? CheckStatus::kPassed : CheckStatus::kFailed;
+  check.measured = static_cast<double>(count);
   check.bound = 0;
-  check.violations = faults.count;
-  if (faults.count > 0) check.where = faults.where;
+  check.violations = count;
   check.note = note;
+  return check;
+}
+
+}  // namespace
+
+void ReportBuilder::count(const std::string& name, const Tally& faults, const std::string& note) {
+  Check check = counted(name, faults.count, note);
+  if (faults.count > 0) check.where = faults.where;
   put(std::move(check));
+}
+
+void ReportBuilder::fault_of_all(const std::string& name, bool is_so, const std::string& note) {
+  put(counted(name, is_so ? 1 : 0, is_so ? note : ""));
 }
 
 void ReportBuilder::bounded(const std::string& name, const Extreme& worst, const std::optional<double>& bound,

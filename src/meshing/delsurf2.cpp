@@ -238,7 +238,9 @@ SurfaceMesh delsurf2(const SmoothDomain& domain, const DelSurf2Options& options,
   }
   SurfaceMesh mesh = delsurf2(*domain.function, domain.box, local, report);
   for (Point3& p : mesh.points) p = domain.to_world(p);
-  for (Unmet& unmet : report.unmet) unmet.where = domain.to_world(unmet.where);
+  for (Unmet& unmet : report.unmet) {
+    if (unmet.where) unmet.where = domain.to_world(*unmet.where);
+  }
   if (domain.to_world.determinant() < 0) {
     for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   }

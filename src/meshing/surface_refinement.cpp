@@ -211,8 +211,8 @@ bool Refinement::repair_umbrella(VertexId vertex) {
 }
 
 void Refinement::report_unmet() {
-  const auto tell = [this](const char* criterion, std::size_t count, const Point3& where, const char* reason,
-                           bool breaks_promise) {
+  const auto tell = [this](const char* criterion, std::size_t count, const std::optional<Point3>& where,
+                           const char* reason, bool breaks_promise) {
     if (count > 0) report_.unmet.push_back({criterion, count, where, reason, breaks_promise});
   };
   std::size_t broken = 0;
@@ -246,7 +246,7 @@ void Refinement::report_unmet() {
          false);
   }
   if (expected_topology_ && broken == 0 && topology() != *expected_topology_) {
-    tell("topology", 1, delaunay_.point(Delaunay3::kCorners),
+    tell("topology", 1, std::nullopt,
          "components or Euler number differ from the voxels': some neck or gap is too thin to be found", false);
   }
   tell("landmark", lost_landmarks_, lost_place_, "a neck, gap or speck of the voxels is below the smallest ball radius",

@@ -104,8 +104,9 @@ inline void expect_finished(const RunReport& report) {
   EXPECT_EQ(report.stop, StopReason::kFinished);
   for (const Unmet& unmet : report.unmet) {
     if (!unmet.breaks_promise) continue;
-    ADD_FAILURE() << unmet.criterion << ": " << unmet.count << " at (" << unmet.where.x << ", " << unmet.where.y << ", "
-                  << unmet.where.z << "): " << unmet.reason;
+    const Point3 p = unmet.where.value_or(Point3{});
+    ADD_FAILURE() << unmet.criterion << ": " << unmet.count << " at (" << p.x << ", " << p.y << ", " << p.z
+                  << "): " << unmet.reason;
   }
 }
 

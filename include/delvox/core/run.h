@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ const char* to_string(StopReason reason);
 struct Unmet {
   std::string criterion;  ///< "topology", "deviation", "angle", "radius-edge", ...
   std::size_t count = 0;
-  Point3 where;           ///< world position of one instance
+  std::optional<Point3> where;  ///< world position of one instance; none if it is a matter of the mesh as a whole
   std::string reason;
   bool breaks_promise = true;  ///< false: counted and reported, but the run still succeeds
 };
