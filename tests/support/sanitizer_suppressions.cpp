@@ -2,6 +2,8 @@
 
 // CLN, which GiNaC computes with, never frees a string that it makes as it is loaded.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libcln\n"; }
+// Nor a word about it: tests read what the program says.
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
 
 // Debian's oneTBB is built without ThreadSanitizer, which so cannot see how its tasks follow each other. What these
 // lines silence has TBB's functions somewhere on the stack: also what code of ours does in TBB's tasks. What refinement
