@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <memory>
+#include <mutex>
 #include <numbers>
 #include <optional>
 
@@ -33,17 +35,18 @@ struct Options {
   int repeat = 7;
 };
 
-/// Passes all questions on, and keeps where the values are looked at, in world coordinates.
+/// Passes all questions on, and keeps where the values are looked at, in world coordinates. Clones, which the mesher's
+/// threads ask, keep it in the same place.
 class RecordingOracle final : public Oracle {
  public:
   RecordingOracle(const Oracle& oracle, std::size_t most) : oracle_(oracle), most_(most) {}
 
-  const std::vector<Point3>& labels() const { return labels_; }
-  const std::vector<Point3>& crossings() const { return crossings_; }
+  const std::vector<Point3>& labels() const { return kept_->labels; }
+  const std::vector<Point3>& crossings() const { return kept_->crossings; }
 
   Box3 bounds() const override { return oracle_.bounds(); }
   Label label(const Point3& p) const override {
-    keep(labels_, p);
+    keep(kept_->labels, p);
     return oracle_.label(p);
   }
   /// Bisection to a quarter of a millimetre and the crossing itself stand for the search.
@@ -51,14 +54,14 @@ class RecordingOracle final : public Oracle {
     const Point3 crossing = oracle_.intersect(a, b);
     Point3 low = a, high = b;
     const Label at_a = oracle_.label(a);
-    keep(crossings_, a);
-    keep(crossings_, b);
+    keep(kept_->crossings, a);
+    keep(kept_->crossings, b);
     while (squared_distance(low, high) > 0.0625) {
       const Point3 middle = midpoint(low, high);
-      keep(crossings_, middle);
+      keep(kept_->crossings, middle);
       (oracle_.label(middle) == at_a ? low : high) = middle;
     }
-    keep(crossings_, crossing);
+    keep(kept_->crossings, crossing);
     return crossing;
   }
   std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const override {
@@ -71,13 +74,18 @@ class RecordingOracle final : public Oracle {
   std::unique_ptr<Oracle> clone() const override { return std::make_unique<RecordingOracle>(*this); }
 
  private:
+  struct Kept {
+    std::mutex mutex;
+    std::vector<Point3> labels, crossings;
+  };
   void keep(std::vector<Point3>& points, const Point3& p) const {
+    const std::lock_guard lock(kept_->mutex);
     if (points.size() < most_) points.push_back(p);
   }
 
   const Oracle& oracle_;
   std::size_t most_;
-  mutable std::vector<Point3> labels_, crossings_;
+  std::shared_ptr<Kept> kept_ = std::make_shared<Kept>();
 };
 
 /// Where to sample, in units of voxels of the image.
