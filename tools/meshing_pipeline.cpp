@@ -59,6 +59,9 @@ class MeshingRun {
     analysis_ = read_analysis(options_.output);
     image_materials_ = parse_image_materials(options_.image_materials);
     if (image_materials_ && analysis_.material) throw OptionError("two materials: one from the image, one by name");
+    if (analysis_.deck && !analysis_.material && !image_materials_) {
+      throw OptionError(options_.output.deck + ": states no material; add \"material\", or give --material or --hu-density");
+    }
     analysis_.check_sets(set_names, options_.output.deck);
     if (!options_.max_memory.empty()) max_bytes_ = parse_memory(options_.max_memory, "--max-memory");
     domain_->read(watch_, console_);

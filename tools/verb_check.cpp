@@ -124,7 +124,11 @@ Promises bounds_for(const MeshInfo& info, const Promises& given) {
 template <class Choose>
 Isosurface isosurface_of(const std::string& path, const MeshInfo& info, Frame frame, const Options& options,
                          const Choose& choose) {
-  if (options.isosurface.iso.empty() && !info.isovalue) throw OptionError(path + ": carries no isovalue; give --iso (and --interpolation quintic, if delsurf2 meshed a volume)");
+  if (options.isosurface.iso.empty() && !info.isovalue) {
+    const bool may_be_spline = !options.volume.path.empty() && options.interpolation != "quintic";
+    throw OptionError(path + ": carries no isovalue; give --iso" +
+                      (may_be_spline ? ", and --interpolation quintic if delsurf2 made it" : ""));
+  }
   const bool below = info.below || options.isosurface.below;
   if (options.isosurface.iso.empty()) return {*info.isovalue, below};
   return {choose(FrameChange(frame, options.frame)).surface.isovalue, below};

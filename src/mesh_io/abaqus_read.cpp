@@ -42,10 +42,10 @@ ElementType element_type(const std::string& name) {
   return {solid || shell ? CellKind::kUnsupported : CellKind::kIgnored, 0};
 }
 
-/// The keyword of a line and its parameters, in capitals: *ELEMENT, TYPE=C3D4, ELSET=A.
+/// The keyword of a line and its parameters, in capitals: *ELEMENT, TYPE=C3D4, ELSET=A; and as they are spelt.
 struct Keyword {
   std::string name;
-  std::map<std::string, std::string> parameters;
+  std::map<std::string, std::string> parameters, spelt;
 };
 
 Keyword parse_keyword(std::string_view line) {
@@ -61,7 +61,9 @@ Keyword parse_keyword(std::string_view line) {
     if (first) {
       keyword.name = key;
     } else {
-      keyword.parameters[key] = upper_case(trimmed(part.substr(std::min(equals + 1, part.size()))));
+      const std::string_view value = trimmed(part.substr(std::min(equals + 1, part.size())));
+      keyword.parameters[key] = upper_case(value);
+      keyword.spelt[key] = value;
     }
     first = false;
   }
@@ -112,6 +114,7 @@ class Reader {
     if (name->second == kAllNodes || name->second == kAllTets || name->second == kBoundary) return;
     section_ = section;
     set_ = name->second;
+    set_name_ = spelling_.try_emplace(set_, keyword.spelt.at(parameter)).first->second;
     generate_ = keyword.parameters.contains("GENERATE");
   }
 
@@ -178,9 +181,9 @@ class Reader {
     }
     for (std::size_t i = first; i < ranges.size(); ++i) {
       if (section_ == Section::kNodeSet) {
-        numbered_.add_nodes_to_set(set_, ranges[i]);
+        numbered_.add_nodes_to_set(set_name_, ranges[i]);
       } else {
-        numbered_.add_elements_to_set(set_, ranges[i]);
+        numbered_.add_elements_to_set(set_name_, ranges[i]);
       }
     }
   }
@@ -192,7 +195,7 @@ class Reader {
     const std::string face = upper_case(fields_[1]);
     for (std::uint8_t own = 0; own < 4; ++own) {
       if (face == "S" + std::to_string(kAbaqusFace[own])) {
-        numbered_.add_face_to_set(set_, parse_integer(source_, fields_[0]), own);
+        numbered_.add_face_to_set(set_name_, parse_integer(source_, fields_[0]), own);
       }
     }
   }
@@ -223,7 +226,9 @@ class Reader {
   ElementType type_;
   std::int64_t region_ = 1;
   NamedRegions regions_;
-  std::string set_;        ///< being listed
+  std::string set_;        ///< being listed, in capitals
+  std::string set_name_;   ///< the same, as it was spelt first
+  std::map<std::string, std::string> spelling_;  ///< of sets, by their names in capitals
   bool generate_ = false;  ///< as ranges
   std::map<std::pair<Section, std::string>, std::vector<NumberRange>> ranges_of_;
   std::vector<std::string_view> fields_;

@@ -48,8 +48,7 @@ FeatureSegments::FeatureSegments(FeatureEdges edges, const SizeField& size, doub
       ends[i] = known;
     }
     line_ends_.push_back(ends);
-    go_on();  // a line is not left out, but the run may be cancelled
-    cut_line(l, ends, shells[l]);
+    cut_line(l, ends, shells[l], go_on);
   }
   cut_encroached(go_on);
 }
@@ -132,7 +131,8 @@ double FeatureSegments::shell_at(const std::vector<LineEnd>& there, const std::v
   return shell;
 }
 
-void FeatureSegments::cut_line(std::uint32_t line, const Edge& ends, const std::array<double, 2>& shells) {
+void FeatureSegments::cut_line(std::uint32_t line, const Edge& ends, const std::array<double, 2>& shells,
+                               const GoOn& go_on) {
   const double length = lines_[line].length();
   const double first = shells[0] < (1 - 1e-9) * length ? shells[0] : 0;
   const double last = length - (shells[1] < (1 - 1e-9) * length ? shells[1] : 0);
@@ -145,11 +145,12 @@ void FeatureSegments::cut_line(std::uint32_t line, const Edge& ends, const std::
     inner[1] = last > first ? add_node(lines_[line].point(last)) : inner[0];
     add_segment(line, {inner[1], ends[1]}, last, length);
   }
-  if (inner[0] != inner[1] || (first == 0 && last == length)) cut_piece(line, inner, first, last);
+  if (inner[0] != inner[1] || (first == 0 && last == length)) cut_piece(line, inner, first, last, go_on);
 }
 
-/// Into equal parts, and these again where sizes ask for it.
-void FeatureSegments::cut_piece(std::uint32_t line, Edge ends, double from, double to) {
+/// Into equal parts, and these again where sizes ask for it. Nothing is left out when go_on() says to end, but the run
+/// may be cancelled.
+void FeatureSegments::cut_piece(std::uint32_t line, Edge ends, double from, double to, const GoOn& go_on) {
   constexpr int kSamples = 8;
   double wanted = std::numeric_limits<double>::infinity();
   for (int i = 0; i <= kSamples; ++i) {
@@ -161,12 +162,13 @@ void FeatureSegments::cut_piece(std::uint32_t line, Edge ends, double from, doub
   std::uint32_t last = ends[0];
   double last_at = from;
   for (std::uint64_t i = 1; i <= count; ++i) {
+    go_on();
     const double at = i == count ? to : from + (to - from) * static_cast<double>(i) / static_cast<double>(count);
     const std::uint32_t node = i == count ? ends[1] : add_node(lines_[line].point(at));
     if (constant || count == 1) {
       add_segment(line, {last, node}, last_at, at);
     } else {
-      cut_piece(line, {last, node}, last_at, at);
+      cut_piece(line, {last, node}, last_at, at, go_on);
     }
     last = node;
     last_at = at;

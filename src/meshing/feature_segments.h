@@ -64,8 +64,8 @@ class FeatureSegments {
   double wanted_length(const Point3& p) const;
   std::vector<std::array<double, 2>> find_shells() const;
   double shell_at(const std::vector<LineEnd>& there, const std::vector<std::array<bool, 2>>& acute) const;
-  void cut_line(std::uint32_t line, const Edge& ends, const std::array<double, 2>& shells);
-  void cut_piece(std::uint32_t line, Edge ends, double from, double to);
+  void cut_line(std::uint32_t line, const Edge& ends, const std::array<double, 2>& shells, const GoOn& go_on);
+  void cut_piece(std::uint32_t line, Edge ends, double from, double to, const GoOn& go_on);
   void cut_encroached(const GoOn& go_on);
 
   FeatureEdges edges_;

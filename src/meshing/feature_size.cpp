@@ -17,7 +17,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::vector<Point3> sample(const Oracle& oracle, double spacing, const GoOn& go_on) {
   std::vector<Point3> points = oracle.seeds(SizeField(spacing), go_on).points;
-  if (points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
+  if (points.empty()) throw NothingToMesh("the surface is empty: no point was found on it; choose another isovalue, formula or box");
   return points;
 }
 

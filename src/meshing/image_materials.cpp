@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/parallel.h"
+#include "delvox/core/errors.h"
 
 namespace delvox {
 namespace {
@@ -178,6 +179,11 @@ ImageMaterialReport assign_image_materials(TetMesh& mesh, const Volume& volume, 
   if (means.empty()) return report;
   const auto [least, greatest] = std::minmax_element(
       means.begin(), means.end(), [](const TetMean& a, const TetMean& b) { return a.modulus < b.modulus; });
+  if (!std::all_of(means.begin(), means.end(), [](const TetMean& mean) {
+        return std::isfinite(mean.modulus) && mean.modulus > 0 && std::isfinite(mean.density);
+      })) {
+    throw OptionError("materials from the image: a modulus comes out as infinite or zero; check --hu-density and --modulus");
+  }
   report.least_mpa = least->modulus;
   report.greatest_mpa = greatest->modulus;
   const double width = (report.greatest_mpa - report.least_mpa) / static_cast<double>(options.bins);

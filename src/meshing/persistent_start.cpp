@@ -18,7 +18,7 @@ void Refinement::start() {
   // would be smaller still, but more of what follows goes wrong.
   constexpr double kDenseSpread = 2;
   const Seeds seeds = oracle_.seeds(leaves_dense_ ? scaled(surface_.size, kDenseSpread) : surface_.size, go_on);
-  if (seeds.points.empty()) throw NothingToMesh("the surface is empty; choose another isovalue, see delvox info");
+  if (seeds.points.empty()) throw NothingToMesh("the surface is empty: no point was found on it; choose another isovalue, formula or box");
   report_.components = seeds.components;
   watch_ = LandmarkWatch(oracle_.landmarks(surface_.size, go_on));
   if (variant_.start == Start::kPersistent) return insert_persistent_triangles(seeds);

@@ -69,7 +69,8 @@ class Links {
   }
 
   std::span<const LinkEdge> of(VertexId vertex) const {
-    return {&edges_[0] + first_[vertex], &edges_[0] + first_[vertex + 1]};
+    const std::size_t count = first_[vertex + 1] - first_[vertex];
+    return count == 0 ? std::span<const LinkEdge>() : std::span(&edges_[first_[vertex]], count);
   }
 
  private:

@@ -404,7 +404,7 @@ U
   EXPECT_EQ(mesh.mid_nodes, (std::vector<MidNodes>{{4, 5, 6, 7, 8, 9}}));
   EXPECT_EQ(mesh.points[9], (Point3{0, 0.5, 0.5}));
   ASSERT_EQ(mesh.sets.size(), 1u);
-  EXPECT_EQ(mesh.sets[0].name, "ALL");
+  EXPECT_EQ(mesh.sets[0].name, "all");
   EXPECT_EQ(mesh.sets[0].nodes.size(), 10u);
 }
 
@@ -430,11 +430,11 @@ base, 40, 99
 )");
   const auto& mesh = std::get<TetMesh>(file.mesh);
   ASSERT_EQ(mesh.sets.size(), 4u);
-  EXPECT_EQ(mesh.sets[0], (MeshSet{"BASE", {0, 1, 2}, {}, {}}));
-  EXPECT_EQ(mesh.sets[1], (MeshSet{"MORE", {0, 1, 2, 3}, {}, {}}));
-  EXPECT_EQ(mesh.sets[2], (MeshSet{"BODY", {}, {0}, {}}));
+  EXPECT_EQ(mesh.sets[0], (MeshSet{"Base", {0, 1, 2}, {}, {}}));
+  EXPECT_EQ(mesh.sets[1], (MeshSet{"More", {0, 1, 2, 3}, {}, {}}));
+  EXPECT_EQ(mesh.sets[2], (MeshSet{"Body", {}, {0}, {}}));
   // S1 is 1-2-3, opposite corner 3; S4 is 3-4-1, opposite corner 1.
-  EXPECT_EQ(mesh.sets[3], (MeshSet{"FACES", {}, {}, {{0, 1}, {0, 3}}}));
+  EXPECT_EQ(mesh.sets[3], (MeshSet{"Faces", {}, {}, {{0, 1}, {0, 3}}}));
 }
 
 TEST(ForeignAbaqus, OfShellsIsASurface) {

@@ -75,6 +75,19 @@ TEST(Sets, SurviveSolversFormatsWhole) {
   }
 }
 
+// To Abaqus BASE and base are one; the spelling is the user's all the same.
+TEST(Sets, KeepTheSpellingOfTheirNamesInAbaqus) {
+  TetMesh written = awkward_tets_with_sets();
+  for (MeshSet& set : written.sets) {
+    for (char& c : set.name) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  const TetMesh read = there_and_back(written, ".inp");
+  EXPECT_EQ(read.sets.size(), written.sets.size());
+  for (const MeshSet& set : written.sets) {
+    EXPECT_NE(std::find(read.sets.begin(), read.sets.end(), set), read.sets.end()) << set.name;
+  }
+}
+
 TEST(Sets, OfFacesAndTetsSurviveGmsh) {
   const TetMesh written = awkward_tets_with_sets();
   TetMesh read = there_and_back(written, ".msh");

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "delvox/core/errors.h"
 #include "delvox/oracle/polygon_oracle.h"
 #include "support/sharp_shapes.h"
 
@@ -102,6 +103,16 @@ TEST(FeatureSegments, AtSharpCornersAllAreOfOneLength) {
     if (segments.at(n).size() < 3) continue;
     for (std::uint32_t s : segments.at(n)) EXPECT_NEAR(segments.length(s), segments.length(segments.at(n)[0]), 1e-9);
   }
+}
+
+TEST(FeatureSegments, AskOftenWhileALongLineIsCutWhetherToGoOn) {
+  const FeatureEdges edges = edges_of(boundary_surface(test::cube_mesh(1, 10)), 60);
+  int asked = 0;
+  const auto stop = [&asked]() -> bool {
+    if (++asked == 100) throw Cancelled();
+    return true;
+  };
+  EXPECT_THROW(FeatureSegments(edges, 1e-3, kInfinity, 1e-6, stop), Cancelled);
 }
 
 TEST(FeatureSegments, WhatEncroachesMostComesFirstAndSegmentsAtANodeAreLeftOut) {

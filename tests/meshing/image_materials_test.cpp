@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "delvox/core/errors.h"
 #include "delvox/meshing/deltetsurf.h"
 #include "delvox/oracle/isosurface_oracle.h"
 #include "delvox/volume/peel.h"
@@ -130,6 +131,17 @@ TEST(ImageMaterials, ALinearLawOnALinearFieldIsExactInEveryTet) {
   const Point3 centre{2.25, 2.75, 3.25};
   EXPECT_NEAR(mesh.materials.at(0).youngs_modulus_mpa, ramp(centre), 1e-3);
   EXPECT_NEAR(mesh.materials.at(0).density_kg_m3, ramp(centre), 1e-3);
+}
+
+TEST(ImageMaterials, AModulusBeyondAllNumbersIsRefused) {
+  const Volume volume = sampled(2, [](const Point3&) { return 1000; });
+  TetMesh mesh;
+  mesh.points = {{0, 0, 0}, {9, 1, 0}, {1, 8, 2}, {-1, 2, 11}};
+  mesh.tets = {{0, 1, 2, 3}};
+  ImageMaterialOptions options;
+  options.density_slope = 0.05;
+  options.law = *find_density_law("E=6850*rho^999");
+  EXPECT_THROW(assign_image_materials(mesh, volume, options), OptionError);
 }
 
 TEST(ImageMaterials, PeelingTakesThePartialVolumeAway) {

@@ -107,6 +107,8 @@ TEST(DeckJson, WhatADeckNeedsIsAskedForBeforeMeshing) {
   fails({"-o", folder / "a.inp", "--materials", organs}, "base");
   fails({"-o", folder / "a.vtu", "--materials", organs, "--set", "base=all"}, ".inp");
   fails({"-o", folder / "a.inp", "--materials", organs, "--material", "fat", "--set", "base=all"}, "fat");
+  write_file(deck, R"({"supports": [{"set": "base"}]})");
+  fails({"-o", folder / "a.inp", "--set", "base=all"}, "states no material");
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST(SetRules, AnOrganCutByTheImageEdgeIsHeldThere) {
       run_delvox({"convert", mesh, "--set", "x=all", "--order", "2", "--unit", "m", "-o", folder / "b.inp"});
   EXPECT_EQ(converted.code, 0) << converted.err;
   const std::string text = test::read_file(folder / "b.inp");
-  for (const char* word : {"in m ", "C3D10", "NSET=CUT", "NAME=CUT", "ELSET=x"}) {
+  for (const char* word : {"in m ", "C3D10", "NSET=cut", "NAME=cut", "ELSET=x"}) {
     EXPECT_NE(text.find(word), std::string::npos) << word;
   }
   EXPECT_EQ(run_delvox({"check", folder / "b.inp", "--quiet"}).code, 0);

@@ -28,7 +28,7 @@ struct ImageMaterialReport {
 /// its voxel centres by the nearest), by quadrature as fine as two voxels. Tets are then put into bins of equal width;
 /// each bin becomes a region with a material that has the bin's mean modulus and density, so that the integral of the
 /// modulus over the mesh stays what it is. Edges count as straight. Replaces regions and materials. pre: mesh in the
-/// frame of the volume, one region, bins >= 1.
+/// frame of the volume, one region, bins >= 1. Throws OptionError if a modulus comes out as infinite or zero.
 ImageMaterialReport assign_image_materials(TetMesh& mesh, const Volume& volume, const ImageMaterialOptions& options);
 
 }  // namespace delvox
