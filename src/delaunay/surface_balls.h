@@ -122,8 +122,9 @@ class SurfaceBalls {
     }
   }
 
-  PageArray<std::uint32_t> entries_;  // per cell: four times its only ball plus the facet; or kSeveral plus its place in
-  PageArray<std::array<std::uint32_t, 4>> numbers_;  // per facet: its ball
+  // Per cell: none; four times its only ball, plus the facet; or kSeveral, plus its place in numbers_.
+  PageArray<std::uint32_t> entries_;
+  PageArray<std::array<std::uint32_t, 4>> numbers_;  // per facet of such a cell: its ball
   PageArray<SurfaceBall> balls_;
   Room free_;
 };

@@ -109,8 +109,6 @@ class Refinement {
   };
   /// A matter of the mesh alone, never of the number of threads.
   static constexpr std::size_t kLanes = 8;
-  /// Copies of this many entries are a burden once they are freed.
-  static constexpr std::size_t kManyWaiting = 1 << 15;
   /// kTwoFaced: faces inside or outside with both sides, and its ball is too small to be split.
   enum class Verdict { kGood, kSplit, kTooDeviant, kTwoFaced };
   /// Of one component; vertices that are not there are kNone.

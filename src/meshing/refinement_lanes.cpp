@@ -11,6 +11,8 @@ namespace delvox {
 namespace {
 
 constexpr std::size_t kFewestPerLane = 32;
+/// Copies of this many entries are a burden once they are freed.
+constexpr std::size_t kManyWaiting = 1 << 15;
 /// Facets that a lane may judge before the others are waited for.
 constexpr std::size_t kMostJudged = 16;
 

@@ -118,12 +118,17 @@ TEST(ImageMaterials, BinsRiseAndEveryTetHasOne) {
   }
 }
 
-TEST(ImageMaterials, ALinearLawOnALinearFieldIsExactInEveryTet) {
-  const auto ramp = [](const Point3& p) { return 1000 + 10 * p.x - 5 * p.y + 3 * p.z; };
-  const Volume volume = sampled(2, ramp);
+TetMesh one_tet() {
   TetMesh mesh;
   mesh.points = {{0, 0, 0}, {9, 1, 0}, {1, 8, 2}, {-1, 2, 11}};
   mesh.tets = {{0, 1, 2, 3}};
+  return mesh;
+}
+
+TEST(ImageMaterials, ALinearLawOnALinearFieldIsExactInEveryTet) {
+  const auto ramp = [](const Point3& p) { return 1000 + 10 * p.x - 5 * p.y + 3 * p.z; };
+  const Volume volume = sampled(2, ramp);
+  TetMesh mesh = one_tet();
   ImageMaterialOptions options;
   options.density_slope = 0.001;
   options.law = *find_density_law("E=1000*rho^1");
@@ -135,9 +140,7 @@ TEST(ImageMaterials, ALinearLawOnALinearFieldIsExactInEveryTet) {
 
 TEST(ImageMaterials, AModulusBeyondAllNumbersIsRefused) {
   const Volume volume = sampled(2, [](const Point3&) { return 1000; });
-  TetMesh mesh;
-  mesh.points = {{0, 0, 0}, {9, 1, 0}, {1, 8, 2}, {-1, 2, 11}};
-  mesh.tets = {{0, 1, 2, 3}};
+  TetMesh mesh = one_tet();
   ImageMaterialOptions options;
   options.density_slope = 0.05;
   options.law = *find_density_law("E=6850*rho^999");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "delvox/check/check_mesh.h"
@@ -104,9 +105,11 @@ inline void expect_finished(const RunReport& report) {
   EXPECT_EQ(report.stop, StopReason::kFinished);
   for (const Unmet& unmet : report.unmet) {
     if (!unmet.breaks_promise) continue;
-    const Point3 p = unmet.where.value_or(Point3{});
-    ADD_FAILURE() << unmet.criterion << ": " << unmet.count << " at (" << p.x << ", " << p.y << ", " << p.z
-                  << "): " << unmet.reason;
+    std::string place;
+    if (const auto& p = unmet.where) {
+      place = " at (" + std::to_string(p->x) + ", " + std::to_string(p->y) + ", " + std::to_string(p->z) + ")";
+    }
+    ADD_FAILURE() << unmet.criterion << ": " << unmet.count << place << ": " << unmet.reason;
   }
 }
 

@@ -26,8 +26,8 @@ SurfaceMesh delsurf(const Oracle& oracle, const DelSurfOptions& options, RunRepo
 
 /// DelSurf1 (book, 14.1): for size fields that are 1-Lipschitz and at most 0.08 of the local feature size, with which
 /// it keeps theorem 14.2. Others it cannot tell: nothing but the size is looked at, and the angle and deviation if they
-/// are bounded, not the topology. Otherwise as delsurf(), but for
-/// surface_only_after_dense, which is refused (OptionError).
+/// are bounded, not the topology. Otherwise as delsurf(), but for surface_only_after_dense, which is refused
+/// (OptionError).
 SurfaceMesh delsurf1(const Oracle& oracle, const DelSurfOptions& options, RunReport& report);
 
 }  // namespace delvox
