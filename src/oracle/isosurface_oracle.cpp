@@ -5,9 +5,9 @@
 
 #include "delvox/core/errors.h"
 #include "delvox/volume/voxel_topology.h"
-#include "oracle/bracketed_root.h"
 #include "oracle/brick_field.h"
 #include "oracle/domain_patches.h"
+#include "oracle/trilinear_cell.h"
 #include "oracle/voxel_landmarks.h"
 #include "oracle/voxel_seeds.h"
 
@@ -78,6 +78,14 @@ class IsosurfaceOracle final : public SmoothOracle {
   /// Moves the ends of a segment to the padded box; false if it misses the box.
   bool clip(Point3& a, Point3& b) const;
   Point3 crossing_between(Point3 a, Point3 b) const;
+  Point3 crossing_within_voxel(const Point3& a, double at_a, const Point3& b, double at_b) const;
+  double root_in_cell(const Point3& a, const Vector3& ab, double t0, double before, double t1, double after) const;
+  /// Value less level along p + t d, inside the cell.
+  Cubic cubic_in_cell(const BrickField::CellSamples& samples, const std::array<int, 3>& cell, const Point3& p,
+                      const Vector3& d) const {
+    const Point3 corner{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
+    return cubic_along(samples.value, field_->level(), p - corner, d);
+  }
   void crossings_in_cell(const Point3& a, const Vector3& ab, double t0, double t1, double& value_at_t0,
                          std::vector<Point3>& out) const;
 
@@ -135,14 +143,43 @@ Point3 IsosurfaceOracle::crossing_between(Point3 a, Point3 b) const {
     (beside_a ? a : b) = middle;
     (beside_a ? at_a : at_b) = at_middle;
   }
-  const Vector3 ab = b - a;
-  const double scale = std::abs(field_->level()) + std::min(std::abs(at_a.value), std::abs(at_b.value));
-  const double t = bracketed_root([&](double s) { return field_->value(a + s * ab); }, 0, at_a.value, 1, at_b.value,
-                                  scale);
-  return a + t * ab;
+  return crossing_within_voxel(a, at_a.value, b, at_b.value);
 }
 
-/// Along a line inside one cell the trilinear function is a cubic: its roots lie between its critical points.
+/// Between the planes of samples that the segment crosses, one along each axis at most, it is in one cell.
+Point3 IsosurfaceOracle::crossing_within_voxel(const Point3& a, double at_a, const Point3& b, double at_b) const {
+  const Vector3 ab = b - a;
+  std::array<double, 4> stops{1, 1, 1, 1};
+  int count = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double plane = static_cast<int>(std::max(a[axis], b[axis])), t = (plane - a[axis]) / ab[axis];
+    if (t > 0 && t < 1) stops[count++] = t;
+  }
+  std::sort(stops.begin(), stops.begin() + count);
+  double t0 = 0, before = at_a;
+  for (int stop = 0; stop <= count; ++stop) {
+    const double t1 = stop == count ? 1 : stops[stop], after = stop == count ? at_b : field_->value(a + t1 * ab);
+    if ((before > 0) != (after > 0)) return a + root_in_cell(a, ab, t0, before, t1, after) * ab;
+    t0 = t1;
+    before = after;
+  }
+  return b;
+}
+
+/// Where along a + t ab the sign changes. The ends of the piece may be on the other side for the cell than they were
+/// for its neighbour: by rounding only, then they are roots.
+double IsosurfaceOracle::root_in_cell(const Point3& a, const Vector3& ab, double t0, double before, double t1,
+                                      double after) const {
+  const std::array<int, 3> cell = field_->cell_of(a + (0.5 * (t0 + t1)) * ab);
+  const BrickField::CellSamples samples = field_->cell_samples(cell);
+  if (!samples.mixed_brick) return std::abs(before) < std::abs(after) ? t0 : t1;
+  const Cubic cubic = cubic_in_cell(samples, cell, a + t0 * ab, (t1 - t0) * ab);
+  const bool start_above = cubic(0) > 0, end_above = cubic(1) > 0;
+  if (start_above == end_above) return start_above == (before > 0) ? t1 : t0;
+  return t0 + (t1 - t0) * cubic.root_between(0, 1);
+}
+
+/// The roots of a cubic lie between its critical points.
 void IsosurfaceOracle::crossings_in_cell(const Point3& a, const Vector3& ab, double t0, double t1, double& value_at_t0,
                                          std::vector<Point3>& out) const {
   const std::array<int, 3> cell = field_->cell_of(a + (0.5 * (t0 + t1)) * ab);
@@ -154,38 +191,36 @@ void IsosurfaceOracle::crossings_in_cell(const Point3& a, const Vector3& ab, dou
     value_at_t0 = first_inside ? 1 : -1;
     return;
   }
-  const auto value = [&](double t) {
-    const Point3 u = a + t * ab;
-    return trilinear(samples.value, u.x - cell[0], u.y - cell[1], u.z - cell[2]) - field_->level();
-  };
-  // Cubic through four equidistant values; s runs from 0 to 1 over the cell.
   const double dt = t1 - t0;
-  const double f0 = value(t0), f1 = value(t0 + dt / 3), f2 = value(t0 + 2 * dt / 3), f3 = value(t1);
+  const Cubic cubic = cubic_in_cell(samples, cell, a + t0 * ab, dt * ab);
+  const auto& c = cubic.c;
   // Its Bezier ordinates enclose it: of one sign, they leave no root.
-  const double b1 = (-5 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 6, b2 = (2 * f0 - 9 * f1 + 18 * f2 - 5 * f3) / 6;
-  if (std::max({f0, b1, b2, f3, value_at_t0}) < 0 || std::min({f0, b1, b2, f3, value_at_t0}) > 0) {
-    value_at_t0 = f3;
+  const double b1 = c[0] + c[1] / 3, b2 = c[0] + (2 * c[1] + c[2]) / 3, b3 = cubic(1);
+  const auto [least, most] = std::minmax({value_at_t0, c[0], b1, b2, b3});
+  if (most < 0 || least > 0) {
+    value_at_t0 = b3;
     return;
   }
-  const double c1 = (-11 * f0 + 18 * f1 - 9 * f2 + 2 * f3) / 2, c2 = (18 * f0 - 45 * f1 + 36 * f2 - 9 * f3) / 2;
-  const double c3 = (-9 * f0 + 27 * f1 - 27 * f2 + 9 * f3) / 2;
-  std::vector<double> stops{t0};
-  const double discriminant = c2 * c2 - 3 * c1 * c3;
+  std::array<double, 4> stops{0, 1, 1, 1};
+  int count = 1;
+  const double discriminant = c[2] * c[2] - 3 * c[1] * c[3];
   if (discriminant > 0) {
-    const double q = -(c2 + std::copysign(std::sqrt(discriminant), c2));
-    double r0 = c3 != 0 ? q / (3 * c3) : -1, r1 = q != 0 ? c1 / q : -1;
+    const double q = -(c[2] + std::copysign(std::sqrt(discriminant), c[2]));
+    double r0 = c[3] != 0 ? q / (3 * c[3]) : -1, r1 = q != 0 ? c[1] / q : -1;
     if (r0 > r1) std::swap(r0, r1);
     for (double r : {r0, r1}) {
-      if (r > 0 && r < 1) stops.push_back(t0 + r * dt);
+      if (r > 0 && r < 1) stops[count++] = r;
     }
   }
-  stops.push_back(t1);
+  stops[count] = 1;
   double before = value_at_t0;
-  const double scale = std::abs(field_->level()) + std::min(std::abs(f0), std::abs(f3));
-  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-    const double after = value(stops[i + 1]);
+  for (int stop = 1; stop <= count; ++stop) {
+    const double after = cubic(stops[stop]);
     if ((before > 0) != (after > 0)) {
-      out.push_back(to_world_(a + bracketed_root(value, stops[i], before, stops[i + 1], after, scale) * ab));
+      // The value at the start is that of the cell before: where rounding puts it on the other side, it is the root.
+      const bool changes = (cubic(stops[stop - 1]) > 0) != (after > 0);
+      const double root = changes ? cubic.root_between(stops[stop - 1], stops[stop]) : stops[stop - 1];
+      out.push_back(to_world_(a + (t0 + root * dt) * ab));
     }
     before = after;
   }
@@ -201,7 +236,8 @@ std::vector<Point3> IsosurfaceOracle::intersect_all(const Point3& world_a, const
   std::array<double, 3> plane, reached;
   const auto reach = [&](int axis) { reached[axis] = ab[axis] == 0 ? 2 : (plane[axis] - a[axis]) / ab[axis]; };
   for (int axis = 0; axis < 3; ++axis) {
-    plane[axis] = ab[axis] > 0 ? std::floor(a[axis]) + 1 : std::ceil(a[axis]) - 1;
+    const double below = static_cast<int>(a[axis]);  // no floor(): that is a call, and a is not negative
+    plane[axis] = ab[axis] > 0 ? below + 1 : a[axis] > below ? below : below - 1;
     reach(axis);
   }
   double value = field_->value(a);

@@ -1,5 +1,6 @@
 #include "oracle/trilinear_cell.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace delvox {
@@ -45,6 +46,40 @@ std::optional<std::array<double, 2>> face_saddle(double a, double b, double c, d
   const double x = (a - d) / twist, y = (a - b) / twist;
   if (!(x > 0 && x < 1 && y > 0 && y < 1)) return std::nullopt;
   return std::array<double, 2>{x, y};
+}
+
+// The function is k + x kx + y ky + z kz + yz kyz + zx kzx + xy kxy + xyz kxyz; x = p.x + t d.x and so on.
+Cubic cubic_along(const std::array<float, 8>& s, double level, const Point3& p, const Vector3& d) {
+  const double kx = double(s[1]) - s[0], ky = double(s[2]) - s[0], kz = double(s[4]) - s[0];
+  const double kxy = double(s[3]) - s[2] - kx, kyz = double(s[6]) - s[4] - ky, kzx = double(s[5]) - s[4] - kx;
+  const double kxyz = double(s[7]) - s[6] - s[5] + s[4] - kxy;
+  // Of the partial derivatives: those that p fixes.
+  const double fxy = kxy + p.z * kxyz, fyz = kyz + p.x * kxyz, fzx = kzx + p.y * kxyz;
+  const double fx = kx + p.y * kxy + p.z * fzx, fy = ky + p.z * kyz + p.x * fxy, fz = kz + p.x * kzx + p.y * fyz;
+  return {{s[0] - level + p.x * (kx + p.z * kzx) + p.y * (ky + p.x * fxy) + p.z * (kz + p.y * kyz),
+           d.x * fx + d.y * fy + d.z * fz, d.x * d.y * fxy + d.y * d.z * fyz + d.z * d.x * fzx,
+           d.x * d.y * d.z * kxyz}};
+}
+
+/// Newton's method, with a bisection where that would leave the bracket or does not halve it in three steps.
+double Cubic::root_between(double low, double high) const {
+  constexpr double kRounding = 4e-16;
+  const bool above_at_low = (*this)(low) > 0;
+  const double at_low = (*this)(low), at_high = (*this)(high);
+  double t = (low * at_high - high * at_low) / (at_high - at_low), width = high - low;
+  for (int step = 0; step < 200 && high - low > kRounding; ++step) {
+    if (!(t > low && t < high)) t = 0.5 * (low + high);
+    const double at_t = (*this)(t);
+    if (at_t == 0) return t;
+    ((at_t > 0) == above_at_low ? low : high) = t;
+    const double next = t - at_t / slope(t);
+    if (std::abs(next - t) <= kRounding) return t;
+    t = next;
+    if (step % 3 != 2) continue;
+    if (high - low > 0.5 * width) t = 0.5 * (low + high);
+    width = high - low;
+  }
+  return std::clamp(t, low, high);
 }
 
 }  // namespace delvox

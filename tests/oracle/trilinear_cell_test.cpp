@@ -100,5 +100,56 @@ TEST(TrilinearCell, FaceSaddleIsWhereBothSlopesVanish) {
   EXPECT_EQ((*middle)[0], 0.5);
 }
 
+std::array<float, 8> random_samples(test::Random& random) {
+  std::array<float, 8> samples;
+  for (float& sample : samples) sample = static_cast<float>(random.between(-1, 1));
+  return samples;
+}
+
+TEST(Cubic, IsTheTrilinearFunctionAlongALine) {
+  test::Random random(7);
+  for (int n = 0; n < 1000; ++n) {
+    const auto samples = random_samples(random);
+    const Point3 p = random.in({{0, 0, 0}, {1, 1, 1}}), q = random.in({{0, 0, 0}, {1, 1, 1}});
+    const double level = random.between(-1, 1);
+    const Cubic cubic = cubic_along(samples, level, p, q - p);
+    for (int step = 0; step <= 10; ++step) {
+      const double t = step / 10.0;
+      const Point3 u = p + t * (q - p);
+      EXPECT_NEAR(cubic(t), trilinear(samples, u.x, u.y, u.z) - level, 1e-14);
+      EXPECT_NEAR(cubic.slope(t), (cubic(t + 1e-6) - cubic(t - 1e-6)) / 2e-6, 1e-7);
+    }
+  }
+}
+
+TEST(Cubic, RootsAreFoundWhateverItsShape) {
+  test::Random random(8);
+  std::size_t roots = 0;
+  for (int n = 0; n < 20000; ++n) {
+    Cubic cubic;
+    for (double& c : cubic.c) c = random.between(-1, 1) * std::pow(10.0, random.between(-6, 3));
+    if (n % 4 == 0) {  // a triple root, or nearly one
+      const double r = random.unit(), shift = n % 8 == 0 ? 0 : random.between(-1e-9, 1e-9);
+      cubic.c = {-r * r * r + shift, 3 * r * r, -3 * r, 1};
+    }
+    const double low = 0.5 * random.unit(), high = random.between(low + 1e-9, 1);
+    if ((cubic(low) > 0) == (cubic(high) > 0)) continue;
+    ++roots;
+    const double t = cubic.root_between(low, high);
+    ASSERT_GE(t, low);
+    ASSERT_LE(t, high);
+    double scale = 0;
+    for (double c : cubic.c) scale += std::abs(c);
+    EXPECT_LE(std::abs(cubic(t)), 1e-14 * scale) << n;
+  }
+  EXPECT_GT(roots, 2000u);
+}
+
+TEST(Cubic, AnEndThatIsZeroIsARoot) {
+  const Cubic rising{{0, 1, 0, 0}}, falling{{1, -1, 0, 0}};
+  EXPECT_NEAR(rising.root_between(0, 1), 0, 1e-15);
+  EXPECT_NEAR(falling.root_between(0, 1), 1, 1e-15);
+}
+
 }  // namespace
 }  // namespace delvox
