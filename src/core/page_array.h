@@ -46,6 +46,8 @@ class PageArray {
 
  private:
   static constexpr std::size_t kHugePage = std::size_t{1} << 21;
+  /// Smaller arrays take few page faults anyway, and would waste half a huge page each.
+  static constexpr std::size_t kWorthHugePages = 4 * kHugePage;
 
   void reserve_bytes(std::size_t wanted) {
     const std::size_t bytes = (wanted + kHugePage - 1) / kHugePage * kHugePage;
@@ -55,7 +57,8 @@ class PageArray {
     if (pages == MAP_FAILED) throw std::bad_alloc();
     data_ = static_cast<T*>(pages);
     bytes_ = bytes;
-    madvise(pages, bytes, MADV_HUGEPAGE);  // a wish: without huge pages all works as well
+    // A wish: without huge pages all works as well.
+    if (bytes >= kWorthHugePages) madvise(pages, bytes, MADV_HUGEPAGE);
   }
 
   T* data_ = nullptr;

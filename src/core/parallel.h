@@ -3,7 +3,6 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -49,12 +48,6 @@ std::vector<T> gather_chunks(std::size_t count, std::size_t chunk, const Collect
     std::copy(parts[i].begin(), parts[i].end(), all.begin() + static_cast<std::ptrdiff_t>(first[i]));
   });
   return all;
-}
-
-/// pre: no two items are equivalent, or the order would depend on the number of threads.
-template <class T, class Less>
-void parallel_sort(std::vector<T>& items, const Less& less) {
-  tbb::parallel_sort(items.begin(), items.end(), less);
 }
 
 /// One T for each thread that asks for one, made when it first does.

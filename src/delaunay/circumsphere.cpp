@@ -22,9 +22,6 @@ Circumsphere circumsphere(const Point3& a, const Point3& b, const Point3& c, con
   const double uu = squared_norm(u), vv = squared_norm(v), ww = squared_norm(w);
   const Vector3 vw = cross(v, w);
   const double six_volume = dot(u, vw);
-  // The determinant's rounding error is below 1e-15 |u||v||w|: where it exceeds that by six orders of magnitude, the
-  // quotient keeps nine digits.
-  constexpr double kSafeRatio = 1e-9 * 1e-9 * 1e6;
   if (six_volume * six_volume < kSafeRatio * uu * vv * ww) return exact_circumsphere(a, b, c, d);
   const Vector3 offset = (0.5 / six_volume) * (uu * vw + vv * cross(w, u) + ww * cross(u, v));
   return {a + offset, squared_norm(offset)};

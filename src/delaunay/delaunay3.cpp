@@ -40,15 +40,17 @@ void Delaunay3::clear() {
   free_cells_.clear();
   room_ = {};
   cells_.clear();
-  marks_.clear();
+  stamps_.clear();
+  claims_.clear();
   make_first_cell();
 }
 
 void Delaunay3::make_first_cell() {
   cells_.grow_to(1);
-  marks_.grow_to(1);
+  stamps_.grow_to(1);
+  claims_.grow_to(1);
   cells_[kOutside] = {{kNone, kNone, kNone, kNone}, {kOutside, kOutside, kOutside, kOutside}, {{}, -1}};
-  marks_[kOutside] = {next_stamp_++, 0};
+  stamps_[kOutside] = next_stamp_++;
   const CellId first = new_cell();
   const auto p = [this](VertexId v) { return point(v); };
   set_cell(first, {0, 1, 2, 3}, circumsphere(p(0), p(1), p(2), p(3)));
@@ -88,7 +90,7 @@ void Delaunay3::find_incident_cells(VertexId vertex, std::vector<CellId>& around
   const auto add = [&](CellId cell) {
     met.find_or(cell, [&] {
       around.push_back(cell);
-      return 1;
+      return 1u;
     });
   };
   add(cell_of(vertex));
@@ -123,29 +125,55 @@ bool Delaunay3::is_vertex_of(CellId cell, const Point3& p) const {
   return std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return point(vertex) == p; });
 }
 
-void Delaunay3::find_zone(const Point3& p, CellId start, Star& star, SmallMap& met) const {
-  met.clear();
-  const auto add = [&](CellId cell) {
-    star.zone.push_back(cell);
+void Delaunay3::find_zone(const Point3& p, CellId start, Star& star, StarSearch& search) const {
+  constexpr std::uint32_t kOuter = 0, kInZone = 1;
+  search.met.clear();
+  search.entered.clear();
+  const auto add = [&](CellId cell, int facet) {
+    star.zone.push(cell);
+    search.entered.push(static_cast<std::uint8_t>(facet));
     for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
-    return true;
   };
-  met.find_or(start, [&] { return add(start); });
+  star.zone.make_room(1);
+  search.entered.make_room(1);
+  search.met.find_or(start, [] { return kInZone; });
+  add(start, 0);
   for (std::size_t next = 0; next < star.zone.size(); ++next) {
     const CellId cell = star.zone[next];
-    for (int i = 0; i < 4; ++i) {
-      const CellId neighbor = cells_[cell].neighbors[i];
-      if (met.find_or(neighbor, [&] { return in_conflict(neighbor, p) && add(neighbor); }) != 0) continue;
-      Star::Tet& tet = star.tets.emplace_back();
-      tet.outer = neighbor == kOutside ? FacetId{kOutside, 0} : mirror({cell, i});
-      tet.vertices = vertices(FacetId{cell, i});
+    const int first = search.entered[next];
+    const int facets = next == 0 ? 4 : 3;  // the one by which the cell was entered has been seen to
+    star.zone.make_room(4);
+    star.tets.make_room(4);
+    search.entered.make_room(4);
+    const SmallMap::Table met = search.met.table_for(4);
+    for (int step = 1; step <= facets; ++step) {
+      const FacetId inner{cell, (first + step) & 3}, outer = mirror(inner);
+      SmallMap::Entry& entry = met.place_of(outer.cell);
+      if (!met.known(entry)) {
+        const bool conflict = in_conflict(outer.cell, p);
+        entry = met.made(outer.cell, conflict ? kInZone : kOuter);
+        if (conflict) {
+          add(outer.cell, outer.index);
+          continue;
+        }
+      } else if (SmallMap::Table::number(entry) == kInZone) {
+        continue;
+      }
+      Star::Tet& tet = star.tets.push_raw();
+      tet.outer = outer;
+      tet.vertices = vertices(inner);
     }
   }
 }
 
 CellId Delaunay3::nearest_hint(const Point3& p, const std::vector<CellId>& hints) const {
-  const auto found = std::find_if(hints.begin(), hints.end(), [&](CellId cell) { return in_conflict(cell, p); });
-  return found != hints.end() ? *found : hints.front();
+  CellId living = kNone;
+  for (CellId cell : hints) {
+    if (stamp(cell) == 0) continue;
+    if (in_conflict(cell, p)) return cell;
+    if (living == kNone) living = cell;
+  }
+  return living != kNone ? living : cell_of(0);
 }
 
 void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star, StarSearch& search) const {
@@ -159,11 +187,9 @@ void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star, StarSearch& s
     star.duplicate = true;
     return;
   }
-  find_zone(p, hint, star, search.met);
+  find_zone(p, hint, star, search);
   search.edges.match(star);
-  for (Star::Tet& tet : star.tets) {
-    tet.sphere = circumsphere(p, point(tet.vertices[0]), point(tet.vertices[1]), point(tet.vertices[2]));
-  }
+  search.spheres.find(star, search.edges.names(), [this](VertexId v) -> const Point3& { return point(v); });
 }
 
 void Delaunay3::join(FacetId facet, FacetId outer) {
@@ -185,8 +211,9 @@ CellId Delaunay3::new_cell() {
   if (free_cells_.empty()) {
     const std::size_t cell = cells_.size();
     cells_.grow_to(cell + 1);
-    marks_.grow_to(cell + 1);
-    marks_[cell] = {};
+    stamps_.grow_to(cell + 1);
+    claims_.grow_to(cell + 1);
+    stamps_[cell] = 0;
     return static_cast<CellId>(cell);
   }
   const CellId cell = free_cells_.back();
@@ -197,19 +224,21 @@ CellId Delaunay3::new_cell() {
 void Delaunay3::set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere) {
   cells_[cell].vertices = vertices;
   cells_[cell].sphere = sphere;
-  marks_[cell].stamp = next_stamp_++;
+  stamps_[cell] = next_stamp_++;
   for (VertexId v : vertices) vertices_[v].cell = cell;
 }
 
 void Delaunay3::claim(CellId cell, std::uint32_t number) const {
-  std::uint32_t& held = marks_[cell].claim;
+  const auto mine = static_cast<std::uint16_t>(number);
+  std::uint16_t& held = claims_[cell];
+  const auto gives_way = [mine](std::uint16_t to) { return to / kMostClaims != mine / kMostClaims || to < mine; };
   if (!several_threads_) {
-    held = std::max(held, number);
+    if (gives_way(held)) held = mine;
     return;
   }
-  std::atomic_ref<std::uint32_t> holder(held);
-  std::uint32_t known = holder.load(std::memory_order_relaxed);
-  while (known < number && !holder.compare_exchange_weak(known, number, std::memory_order_relaxed)) {
+  std::atomic_ref<std::uint16_t> holder(held);
+  std::uint16_t known = holder.load(std::memory_order_relaxed);
+  while (gives_way(known) && !holder.compare_exchange_weak(known, mine, std::memory_order_relaxed)) {
   }
 }
 
@@ -241,8 +270,8 @@ void Delaunay3::clear_out(Room& room) {
 }
 
 VertexId Delaunay3::commit(const Star& star, std::vector<CellId>& created) {
-  const std::uint32_t number = new_claims(1);
-  for (CellId cell : star.zone) marks_[cell].claim = number;
+  const std::uint32_t number = new_claim();
+  for (CellId cell : star.zone) claim(cell, number);
   furnish(room_, star);
   return commit(star, number, room_, created);
 }
@@ -257,10 +286,9 @@ inline void Delaunay3::repoint(VertexId vertex, CellId cell, std::uint32_t numbe
 VertexId Delaunay3::commit(const Star& star, std::uint32_t number, Room& room, std::vector<CellId>& created) {
   const VertexId apex = std::exchange(room.vertex, kNone);
   // The zone's numbers are used again at once: neighbours stay near in memory.
-  created.assign(star.zone.begin(),
-                 star.zone.begin() + static_cast<std::ptrdiff_t>(std::min(star.zone.size(), star.tets.size())));
+  created.assign(star.zone.begin(), star.zone.begin() + std::min(star.zone.size(), star.tets.size()));
   for (std::size_t i = star.tets.size(); i < star.zone.size(); ++i) {
-    marks_[star.zone[i]].stamp = 0;
+    stamps_[star.zone[i]] = 0;
     room.cells.push_back(star.zone[i]);
   }
   while (created.size() < star.tets.size()) {
@@ -272,7 +300,7 @@ VertexId Delaunay3::commit(const Star& star, std::uint32_t number, Room& room, s
     const CellId cell = created[t];
     cells_[cell].vertices = {apex, tet.vertices[0], tet.vertices[1], tet.vertices[2]};
     cells_[cell].sphere = tet.sphere;
-    marks_[cell].stamp = number;
+    stamps_[cell] = number;
     for (int i = 0; i < 3; ++i) cells_[cell].neighbors[i + 1] = created[tet.beside[i]];
     join({cell, 0}, tet.outer);
   }
@@ -291,7 +319,7 @@ void Delaunay3::remove(VertexId vertex, std::vector<CellId>& destroyed, std::vec
     created.push_back(i < destroyed.size() ? destroyed[i] : new_cell());
   }
   for (std::size_t i = created.size(); i < destroyed.size(); ++i) {
-    marks_[destroyed[i]].stamp = 0;
+    stamps_[destroyed[i]] = 0;
     free_cells_.push_back(destroyed[i]);
   }
   for (std::size_t i = 0; i < created.size(); ++i) {

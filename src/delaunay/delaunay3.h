@@ -31,6 +31,7 @@ class Delaunay3 {
  public:
   static constexpr CellId kOutside = 0;
   static constexpr VertexId kCorners = 4;
+  static constexpr std::uint32_t kMostClaims = 16;  // of a round
 
   /// Every point inserted later must lie inside `bounds`.
   explicit Delaunay3(const Box3& bounds);
@@ -42,7 +43,7 @@ class Delaunay3 {
   std::size_t vertex_count() const { return vertex_count_.load(std::memory_order_relaxed); }
 
   /// 0 for cells that are not in use; changes whenever the number is given to another cell.
-  std::uint32_t stamp(CellId cell) const { return marks_[cell].stamp; }
+  std::uint32_t stamp(CellId cell) const { return stamps_[cell]; }
   /// What the next cell will get; stamps grow.
   std::uint32_t next_stamp() const { return next_stamp_; }
   /// In positive order; kNone for the cell outside.
@@ -55,11 +56,12 @@ class Delaunay3 {
     const auto& v = cells_[facet.cell].vertices;
     return {v[corners[0]], v[corners[1]], v[corners[2]]};
   }
-  /// The same facet, of the cell on its other side. pre: that is not the cell outside.
+  /// The same facet, of the cell on its other side; of the cell outside, number 0.
   FacetId mirror(FacetId facet) const {
     const CellId other = cells_[facet.cell].neighbors[facet.index];
     const auto& back = cells_[other].neighbors;
-    return {other, back[0] == facet.cell ? 0 : back[1] == facet.cell ? 1 : back[2] == facet.cell ? 2 : 3};
+    const int last = back[3] == facet.cell;  // without branches: which it is cannot be foreseen
+    return {other, ((back[1] == facet.cell) | last) + 2 * ((back[2] == facet.cell) | last)};
   }
   const Point3& point(VertexId vertex) const { return vertices_[vertex].point; }
   /// Some cell at the vertex.
@@ -73,7 +75,8 @@ class Delaunay3 {
     find_incident_cells(vertex, cells, search_.met);
   }
 
-  /// Among cells near p, one that its insertion would destroy, or else the first.
+  /// Of some cells, those not in use being passed over: one that inserting p would destroy, or else the first, or else
+  /// any.
   CellId nearest_hint(const Point3& p, const std::vector<CellId>& hints) const;
   /// What would inserting p do? Labels of the star are not set. `hint` is a cell near p.
   void evaluate(const Point3& p, CellId hint, Star& star) const { evaluate(p, hint, star, search_); }
@@ -87,11 +90,23 @@ class Delaunay3 {
     std::vector<CellId> cells;
     VertexId vertex = kNone;
   };
-  /// The first of `count` claims, greater than all before, for insertions that are to be made at a time.
-  std::uint32_t new_claims(std::uint32_t count) { return std::exchange(next_stamp_, next_stamp_ + count); }
-  /// Claims a cell: the greatest claim holds it.
+  /// The first of a round of claims, greater than all before, for at most kMostClaims insertions that are to be made at
+  /// a time.
+  std::uint32_t new_claims() {
+    const std::uint32_t first = (next_stamp_ + kMostClaims - 1) / kMostClaims * kMostClaims;
+    next_stamp_ = first + kMostClaims;
+    return first;
+  }
+  /// For an insertion that is made alone: no claim of old can keep it from a cell.
+  std::uint32_t new_claim() { return new_claims() + kMostClaims - 1; }
+  /// Claims a cell: the greatest claim of the round holds it. (What cells remember of claims comes again after 4096
+  /// rounds. A cell that then happens to be held by a claim of old is held by nobody in this round, and is free in the
+  /// next.)
   void claim(CellId cell, std::uint32_t claim) const;
-  bool holds(CellId cell, std::uint32_t claim) const { return marks_[cell].claim == claim; }
+  /// pre: the claim has been laid on the cell, in this round.
+  bool holds(CellId cell, std::uint32_t claim) const {
+    return claims_[cell] == static_cast<std::uint16_t>(claim);
+  }
   /// Claims what committing the star touches: its zone and the cells around it.
   void claim(const Star& star, std::uint32_t claim) const;
   bool holds(const Star& star, std::uint32_t claim) const;
@@ -114,10 +129,6 @@ class Delaunay3 {
     Circumsphere sphere;
   };
   static_assert(sizeof(Cell) == 64);
-  struct Mark {
-    std::uint32_t stamp;
-    std::uint32_t claim;  // the greatest that has been laid on the cell
-  };
   struct Vertex {
     Point3 point;
     CellId cell = kOutside;
@@ -130,7 +141,7 @@ class Delaunay3 {
   bool in_conflict_exactly(CellId cell, const Point3& p) const;
   bool is_vertex_of(CellId cell, const Point3& p) const;
   bool is_beyond(FacetId facet, const Point3& p) const;
-  void find_zone(const Point3& p, CellId start, Star& star, SmallMap& met) const;
+  void find_zone(const Point3& p, CellId start, Star& star, StarSearch& search) const;
   VertexId new_vertex();
   CellId new_cell();
   void set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere);
@@ -140,7 +151,8 @@ class Delaunay3 {
   Box3 bounds_;
   bool several_threads_;
   PageArray<Cell> cells_;
-  mutable PageArray<Mark> marks_;
+  PageArray<std::uint32_t> stamps_;
+  mutable PageArray<std::uint16_t> claims_;  // low bits of the greatest of the last round that laid one on the cell
   PageArray<Vertex> vertices_;
   std::vector<CellId> free_cells_;
   std::vector<VertexId> free_vertices_;

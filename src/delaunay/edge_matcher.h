@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "delaunay/ids.h"
@@ -14,6 +15,8 @@ namespace delvox {
 /// Finds the neighbours of a star's tets across the facets at its apex.
 class EdgeMatcher {
  public:
+  using Names = std::array<std::uint32_t, 3>;
+
   /// Sets Star::Tet::beside and Star::corners. pre: the tets' outer triangles form a closed surface.
   void match(Star& star) {
     name_vertices(star);
@@ -24,41 +27,54 @@ class EdgeMatcher {
     }
   }
 
+  /// Of each of the star's tets, which of Star::corners its other three vertices are.
+  std::span<const Names> names() const { return {names_.begin(), names_.size()}; }
+
  private:
-  static constexpr std::size_t kFew = 64;
+  static constexpr std::size_t kFew = 64;  // vertices, of at most 124 triangles
   struct Edge {
     std::uint32_t to, tet;
   };
 
-  /// Numbers the star's vertices from 0: these are its corners.
   void name_vertices(Star& star) {
     known_.clear();
-    names_.resize(star.tets.size());
+    names_.clear();
+    names_.make_room(star.tets.size());
+    star.corners.make_room(star.tets.size());  // of a closed surface there are never more
+    SmallMap::Table known = known_.table_for(0);
     for (std::uint32_t t = 0; t < star.tets.size(); ++t) {
+      Names& names = names_.push({});
       for (int i = 0; i < 3; ++i) {
         const VertexId v = star.tets[t].vertices[i];
-        names_[t][i] = known_.find_or(v, [&] {
-          star.corners.push_back({v, t});
-          return static_cast<std::uint32_t>(star.corners.size() - 1);
-        });
+        SmallMap::Entry& entry = known.place_of(v);
+        if (known.known(entry)) {
+          names[i] = SmallMap::Table::number(entry);
+          continue;
+        }
+        names[i] = static_cast<std::uint32_t>(star.corners.size());
+        entry = known.made(v, names[i]);
+        star.corners.push({v, t});
+        known = known_.table_for(1);
       }
     }
   }
 
   /// Every edge is met once in either direction, so that a table of all pairs needs no clearing.
-  void match_by_table(std::vector<Star::Tet>& tets) {
-    table_.resize(kFew * kFew);
-    for (std::uint32_t t = 0; t < tets.size(); ++t) {
-      const auto& v = names_[t];
-      for (int i = 0; i < 3; ++i) table_[v[(i + 1) % 3] * kFew + v[(i + 2) % 3]] = t;
+  void match_by_table(Scratch<Star::Tet>& tets) {
+    for (std::size_t t = 0; t < tets.size(); ++t) {
+      const auto [a, b, c] = names_[t];
+      const auto tet = static_cast<std::uint8_t>(t);
+      table_[b * kFew + c] = tet;
+      table_[c * kFew + a] = tet;
+      table_[a * kFew + b] = tet;
     }
     for (std::size_t t = 0; t < tets.size(); ++t) {
-      const auto& v = names_[t];
-      for (int i = 0; i < 3; ++i) tets[t].beside[i] = table_[v[(i + 2) % 3] * kFew + v[(i + 1) % 3]];
+      const auto [a, b, c] = names_[t];
+      tets[t].beside = {table_[c * kFew + b], table_[a * kFew + c], table_[b * kFew + a]};
     }
   }
 
-  void match_by_lists(std::vector<Star::Tet>& tets) {
+  void match_by_lists(Scratch<Star::Tet>& tets) {
     list_edges(tets);
     for (std::size_t t = 0; t < tets.size(); ++t) {
       const auto& v = names_[t];
@@ -72,7 +88,7 @@ class EdgeMatcher {
   }
 
   /// The edges sorted by where they start: those of vertex v begin at first_[v].
-  void list_edges(const std::vector<Star::Tet>& tets) {
+  void list_edges(const Scratch<Star::Tet>& tets) {
     // As many edges leave a vertex as there are tets at it.
     first_.assign(1, 0);
     for (const auto& v : names_) {
@@ -90,10 +106,10 @@ class EdgeMatcher {
     }
   }
 
-  SmallMap known_;                                     // vertices' names
-  std::vector<std::array<std::uint32_t, 3>> names_;    // per tet of the star
-  std::vector<std::uint32_t> first_, next_;            // per vertex of the star
-  std::vector<std::uint32_t> table_;                   // tet of each pair of the star's vertices
+  SmallMap known_;            // vertices' names
+  Scratch<Names> names_;  // per tet of the star
+  std::vector<std::uint32_t> first_, next_;        // per vertex of the star
+  std::array<std::uint8_t, kFew * kFew> table_{};  // tet of each pair of the star's vertices
   std::vector<Edge> edges_;
 };
 

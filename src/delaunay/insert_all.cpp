@@ -6,14 +6,13 @@
 namespace delvox {
 namespace {
 
-/// A lane of a round: its stretch of the order, how far it has come, and cells near there.
+/// A lane of a round: its stretch of the order, and how far it has come. The cells it made last are near there.
 struct Stretch {
   Lane lane;
-  std::vector<CellId> hints;
   std::size_t next = 0, end = 0;
 };
 
-constexpr std::size_t kMostLanes = 16, kFewestPointsPerLane = 64;
+constexpr std::size_t kFewestPointsPerLane = 64;
 
 }  // namespace
 
@@ -24,15 +23,12 @@ std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& 
   std::vector<VertexId> vertices(points.size(), kNone);
   const SpatialOrder order = spatial_order(points);
   std::vector<Stretch> stretches(kMostLanes);
-  for (Stretch& stretch : stretches) stretch.hints.assign(1, delaunay_.cell_of(0));
 
   const auto evaluate_next = [&](Stretch& stretch) {
     Worker& own = worker();
     for (; stretch.next < stretch.end; ++stretch.next) {
       const Point3& p = points[order.indices[stretch.next]];
-      std::erase_if(stretch.hints, [&](CellId cell) { return stamp(cell) == 0; });
-      if (stretch.hints.empty()) stretch.hints.push_back(delaunay_.cell_of(0));
-      delaunay_.evaluate(p, delaunay_.nearest_hint(p, stretch.hints), stretch.lane.star, own.search);
+      delaunay_.evaluate(p, delaunay_.nearest_hint(p, stretch.lane.created), stretch.lane.star, own.search);
       if (stretch.lane.star.duplicate) continue;
       claim(stretch.lane);
       return;
@@ -41,7 +37,6 @@ std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& 
   const auto commit_next = [&](Stretch& stretch) {
     if (stretch.next == stretch.end || !holds(stretch.lane)) return;
     vertices[order.indices[stretch.next++]] = commit_unlabelled(stretch.lane, kind);
-    stretch.hints = stretch.lane.created;
   };
 
   std::size_t begin = 0;
@@ -58,7 +53,7 @@ std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& 
     };
     bool left = true;
     while (left && (going = going && go_on())) {
-      const std::uint32_t first_claim = new_claims(static_cast<std::uint32_t>(lanes));
+      const std::uint32_t first_claim = new_claims();
       for (std::size_t i = 0; i < lanes; ++i) stretches[i].lane.claim = first_claim + static_cast<std::uint32_t>(i);
       for_each_lane(evaluate_next);
       for (std::size_t i = 0; i < lanes; ++i) {

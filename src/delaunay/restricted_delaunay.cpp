@@ -1,6 +1,7 @@
 #include "delaunay/restricted_delaunay.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <tuple>
 #include <utility>
 
@@ -39,6 +40,7 @@ std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Poin
       if (!bipolar({cell, i})) drop_ball({cell, i}, mirror({cell, i}), lane_.balls);
     }
   }
+  give_back_room();
   return vertices;
 }
 
@@ -55,8 +57,13 @@ void RestrictedDelaunay::grow() {
   if (vertex_capacity() > kinds_.size()) kinds_.resize(vertex_capacity(), VertexKind::kRemoved);
 }
 
+void RestrictedDelaunay::set_label(CellId cell, Label label) {
+  if (label < 0 || label > kLargestLabel) throw std::out_of_range("an oracle's label is not in 0 to kLargestLabel");
+  labels_[cell] = static_cast<std::uint16_t>(label);
+}
+
 void RestrictedDelaunay::describe(CellId cell, const Oracle& oracle) {
-  labels_[cell] = cell == Delaunay3::kOutside ? 0 : label_of(vertices(cell), sphere(cell), oracle);
+  set_label(cell, cell == Delaunay3::kOutside ? 0 : label_of(vertices(cell), sphere(cell), oracle));
 }
 
 /// Describes the cells with that stamp or a greater one; they are returned in order.
@@ -148,12 +155,19 @@ void RestrictedDelaunay::clear_out(Lane& lane) {
 }
 
 VertexId RestrictedDelaunay::commit(VertexKind kind) {
-  lane_.claim = new_claims(1);
+  lane_.claim = new_claim();
   claim(lane_);
   furnish(lane_, true, 0);
   const VertexId vertex = commit(lane_, kind);
   created_ = lane_.created;
+  give_back_room();
   return vertex;
+}
+
+/// Insertions one by one leave more balls than they take: those are for the others.
+void RestrictedDelaunay::give_back_room() {
+  constexpr std::size_t kMany = 256;
+  if (lane_.balls.balls.size() > kMany) balls_.clear_out(lane_.balls);
 }
 
 VertexId RestrictedDelaunay::commit(Lane& lane, VertexKind kind) {
@@ -166,15 +180,17 @@ VertexId RestrictedDelaunay::commit(Lane& lane, VertexKind kind) {
     if (covered || label(tet.outer.cell) == tet.label) drop_ball(tet.outer, mirror(tet.outer), lane.balls);
   }
   const VertexId vertex = commit_unlabelled(lane, kind);
-  for (std::size_t i = 0; i < lane.created.size(); ++i) labels_[lane.created[i]] = lane.star.tets[i].label;
+  for (std::size_t i = 0; i < lane.created.size(); ++i) set_label(lane.created[i], lane.star.tets[i].label);
   return vertex;
 }
 
 /// Balls inside the zone go, those on its boundary pass to the new cells.
 VertexId RestrictedDelaunay::commit_unlabelled(Lane& lane, VertexKind kind) {
   const Star& star = lane.star;
+  bool any_balls = false;
   for (CellId cell : star.zone) {
     if (!balls_.any(cell)) continue;
+    any_balls = true;
     for (int i = 0; i < 4 && balls_.any(cell); ++i) {
       const FacetId facet{cell, i};
       if (ball(facet) != nullptr && star.in_zone(neighbors(cell)[i])) drop_ball(facet, mirror(facet), lane.balls);
@@ -183,7 +199,7 @@ VertexId RestrictedDelaunay::commit_unlabelled(Lane& lane, VertexKind kind) {
   }
   const VertexId vertex = delaunay_.commit(star, lane.claim, lane.room, lane.created);
   kinds_[vertex] = kind;
-  for (std::size_t i = 0; i < lane.created.size(); ++i) {
+  for (std::size_t i = 0; i < lane.created.size() && any_balls; ++i) {
     balls_.set({lane.created[i], 0}, balls_.number_of(star.tets[i].outer), lane.balls);
   }
   return vertex;
@@ -197,6 +213,7 @@ void RestrictedDelaunay::remove(VertexId vertex) {
   kinds_[vertex] = VertexKind::kRemoved;
   grow();
   for (CellId cell : created_) describe(cell, oracle_);
+  give_back_room();
 }
 
 }  // namespace delvox

@@ -48,7 +48,7 @@ class RestrictedDelaunay {
   void take_back() { aside_.clear(); }
   bool placeholder(CellId cell) const { return aside_.inside(cell); }
   /// Would replacing these cells change what is set aside?
-  bool disturbs_aside(const std::vector<CellId>& cells) const {
+  bool disturbs_aside(const auto& cells) const {
     return !aside_.empty() && std::any_of(cells.begin(), cells.end(), [&](CellId c) { return aside_.guarded(c); });
   }
 
@@ -128,7 +128,9 @@ class RestrictedDelaunay {
   /// The calling thread's own.
   Worker& worker() const { return workers_.local(); }
   void evaluate(const Point3& p, CellId hint, Worker& worker, Star& star) const;
-  std::uint32_t new_claims(std::uint32_t count) { return delaunay_.new_claims(count); }
+  static constexpr std::size_t kMostLanes = Delaunay3::kMostClaims;
+  std::uint32_t new_claims() { return delaunay_.new_claims(); }
+  std::uint32_t new_claim() { return delaunay_.new_claim(); }
   void claim(const Lane& lane) const { delaunay_.claim(lane.star, lane.claim); }
   bool holds(const Lane& lane) const { return delaunay_.holds(lane.star, lane.claim); }
   void claim(FacetId facet, std::uint32_t claim) const;
@@ -146,7 +148,9 @@ class RestrictedDelaunay {
  private:
   Label label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere, const Oracle& oracle) const;
   void grow();
+  void set_label(CellId cell, Label label);
   void describe(CellId cell, const Oracle& oracle);
+  void give_back_room();
   std::vector<CellId> describe_since(std::uint32_t first_stamp);
   std::vector<VertexId> insert_all(const std::vector<Point3>& points, VertexKind kind, const GoOn& go_on);
   VertexId commit_unlabelled(Lane& lane, VertexKind kind);
@@ -156,8 +160,8 @@ class RestrictedDelaunay {
   mutable PerThread<Worker> workers_;
   Team team_{thread_count()};
   Delaunay3 delaunay_;
-  PageArray<Label> labels_;
   std::vector<VertexKind> kinds_;
+  PageArray<std::uint16_t> labels_;
   SurfaceBalls balls_;
   WalledRegion aside_;
   std::vector<CellId> created_, destroyed_;

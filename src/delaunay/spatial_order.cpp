@@ -6,6 +6,7 @@
 
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "core/sort_by_key.h"
 
 namespace delvox {
 namespace {
@@ -41,9 +42,10 @@ std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
   return spread(x[0] ^ parity) << 2 | spread(x[1] ^ parity) << 1 | spread(x[2] ^ parity);
 }
 
-/// Rounds halve in size going back from the last: the last holds half of the points.
+/// Rounds go to a quarter in size going back from the last: the last holds three quarters of the points. (Of halves
+/// there are twice as many, each a walk through all of the triangulation.)
 std::uint64_t round_of(const Point3& p, int last_round) {
-  return static_cast<std::uint64_t>(std::max(0, last_round - std::countr_zero(hash_point(p) | (1ull << 63))));
+  return static_cast<std::uint64_t>(std::max(0, last_round - std::countr_zero(hash_point(p) | (1ull << 63)) / 2));
 }
 
 }  // namespace
@@ -58,7 +60,7 @@ std::uint64_t place_along_curve(const Point3& p, const Box3& box) {
 SpatialOrder spatial_order(const std::vector<Point3>& points) {
   Box3 box;
   for (const Point3& p : points) box.extend(p);
-  const int last_round = std::bit_width(points.size() / 64);
+  const int last_round = std::bit_width(points.size() / 64) / 2;
   struct Entry {
     std::uint64_t key;
     std::uint32_t index;
@@ -66,10 +68,11 @@ SpatialOrder spatial_order(const std::vector<Point3>& points) {
   std::vector<Entry> entries(points.size());
   for_each_chunk(points.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      entries[i] = {round_of(points[i], last_round) << 3 * kBits | place_along_curve(points[i], box), static_cast<std::uint32_t>(i)};
+      entries[i] = {round_of(points[i], last_round) << 3 * kBits | place_along_curve(points[i], box),
+                    static_cast<std::uint32_t>(i)};
     }
   });
-  parallel_sort(entries, [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.index < b.index; });
+  sort_by_key(entries);
   SpatialOrder order;
   order.indices.resize(points.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {

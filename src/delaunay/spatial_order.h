@@ -17,7 +17,7 @@ struct SpatialOrder {
   auto end() const { return indices.end(); }
 };
 
-/// Indices of the points in biased randomised insertion order: rounds of doubling size, drawn by a hash of the
+/// Indices of the points in biased randomised insertion order: rounds that grow fourfold, drawn by a hash of the
 /// coordinates, each sorted along a Hilbert-like curve (Amenta, Choi, Rote, "Incremental constructions con BRIO",
 /// 2003). Depends on the points alone.
 SpatialOrder spatial_order(const std::vector<Point3>& points);

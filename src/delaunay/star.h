@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "delaunay/circumsphere.h"
 #include "delaunay/ids.h"
+#include "delaunay/scratch.h"
 #include "delvox/core/geometry.h"
 
 namespace delvox {
@@ -27,9 +27,9 @@ struct Star {
   };
   Point3 apex;
   bool duplicate = false;    ///< the apex is a vertex already; zone, tets and corners are empty
-  std::vector<CellId> zone;  ///< cells whose circumsphere contains the apex
-  std::vector<Tet> tets;
-  std::vector<Corner> corners;  ///< each once
+  Scratch<CellId> zone;  ///< cells whose circumsphere contains the apex
+  Scratch<Tet> tets;
+  Scratch<Corner> corners;  ///< each once
 
   bool in_zone(CellId cell) const { return std::find(zone.begin(), zone.end(), cell) != zone.end(); }
 };

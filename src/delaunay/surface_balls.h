@@ -15,7 +15,6 @@ namespace delvox {
 struct SurfaceBall {
   Point3 center;
   double squared_radius = 0;
-  bool several = false;  ///< the triangle has others too
 };
 
 /// The balls of facets, each known from both of its sides. A cell costs four bytes until two of its facets have balls.

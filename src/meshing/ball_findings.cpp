@@ -4,6 +4,7 @@
 
 #include "core/flat_hash.h"
 #include "core/parallel.h"
+#include "core/sort_by_key.h"
 #include "meshing/surface_triangulation.h"
 
 namespace delvox {
@@ -19,9 +20,7 @@ class PointCubes {
     for_each_chunk(points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) in_order_[i] = {key_of(cube_of(points[i])), static_cast<std::uint32_t>(i)};
     });
-    parallel_sort(in_order_, [](const Entry& a, const Entry& b) {
-      return a.key != b.key ? a.key < b.key : a.point < b.point;
-    });
+    sort_by_key(in_order_);
     for (std::uint32_t i = 0; i < in_order_.size(); ++i) {
       if (i == 0 || in_order_[i].key != in_order_[i - 1].key) first_[in_order_[i].key] = i;
     }

@@ -7,6 +7,7 @@
 
 #include "core/flat_hash.h"
 #include "core/hash.h"
+#include "core/round.h"
 #include "delvox/core/geometry.h"
 
 namespace delvox {
@@ -48,7 +49,7 @@ class BallGrid {
  private:
   /// Of cubes that are at least as wide as the ball.
   static int octave_of(double radius) { return std::ilogb(2 * radius) + 1; }
-  static std::int64_t index(double x, double width) { return static_cast<std::int64_t>(std::floor(x / width)); }
+  static std::int64_t index(double x, double width) { return floor_to_int(x / width); }
   /// Cubes with equal keys share a list, which costs time only.
   static std::uint64_t key_of(int octave, std::int64_t i, std::int64_t j, std::int64_t k) {
     std::uint64_t hash = mix_hash(static_cast<std::uint64_t>(octave) ^ static_cast<std::uint64_t>(i));

@@ -7,6 +7,7 @@
 
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "core/round.h"
 #include "delaunay/restricted_triangles.h"
 #include "meshing/lattice_rows.h"
 
@@ -130,32 +131,37 @@ bool InteriorLattice::block_near_balls(const RestrictedDelaunay& delaunay, CellI
 /// Beside others of its kind: whoever blocks a site writes the same.
 bool InteriorLattice::block_around(const Point3& p, double radius) {
   bool any = false;
-  const double reach = radius + 2 * kJitter * cube_;
+  const double reach = radius / cube_ + 2 * kJitter;  // in cubes, as all here
+  const Point3 at = (1 / cube_) * (p - origin_);
   for (const bool centre : {false, true}) {
-    const auto range = [&](int axis, double half_width) {
-      const double place = (p[axis] - origin_[axis]) / cube_ - (centre ? 0.5 : 0.0);
-      return std::array{std::max(0, static_cast<std::int32_t>(std::ceil(place - half_width / cube_))),
-                        std::min(counts_[axis] - 1, static_cast<std::int32_t>(std::floor(place + half_width / cube_)))};
+    const Point3 u = centre ? at - Vector3{0.5, 0.5, 0.5} : at;
+    const auto first = [&](int axis, double half_width) {
+      return std::max(std::int64_t{0}, ceil_to_int(u[axis] - half_width));
     };
-    const auto [k0, k1] = range(2, reach);
-    const auto [j0, j1] = range(1, reach);
-    for (std::int32_t k = k0; k <= k1; ++k) {
-      for (std::int32_t j = j0; j <= j1; ++j) {
-        const double dy = coordinate(1, j, centre) - p.y, dz = coordinate(2, k, centre) - p.z;
-        const double left = reach * reach - dy * dy - dz * dz;
+    const auto last = [&](int axis, double half_width) {
+      return std::min<std::int64_t>(counts_[axis] - 1, floor_to_int(u[axis] + half_width));
+    };
+    for (std::int64_t k = first(2, reach); k <= last(2, reach); ++k) {
+      const double dz = static_cast<double>(k) - u.z;
+      for (std::int64_t j = first(1, reach); j <= last(1, reach); ++j) {
+        const double dy = static_cast<double>(j) - u.y, left = reach * reach - dy * dy - dz * dz;
         if (left < 0) continue;
-        const auto [i0, i1] = range(0, std::sqrt(left));
-        const Site row = (centre ? cubes_ : 0) + k * stride_[2] + j * stride_[1];
-        for (std::int32_t i = i0; i <= i1; ++i) {
-          const std::atomic_ref<std::uint8_t> state(state_[row + i]);
-          if (state.load(std::memory_order_relaxed) == kBlocked) continue;
-          state.store(kBlocked, std::memory_order_relaxed);
-          any = true;
+        const double half_width = std::sqrt(left);
+        const Site row = (centre ? cubes_ : 0) + static_cast<Site>(k * stride_[2] + j * stride_[1]);
+        for (std::int64_t i = first(0, half_width); i <= last(0, half_width); ++i) {
+          any |= block(row + static_cast<Site>(i));
         }
       }
     }
   }
   return any;
+}
+
+bool InteriorLattice::block(Site site) {
+  const std::atomic_ref<std::uint8_t> state(state_[site]);
+  if (state.load(std::memory_order_relaxed) == kBlocked) return false;
+  state.store(kBlocked, std::memory_order_relaxed);
+  return true;
 }
 
 Point3 InteriorLattice::point(Site site) const {

@@ -58,6 +58,7 @@ class InteriorLattice {
   bool block_near_corners(const RestrictedDelaunay& delaunay, CellId cell, std::vector<std::uint8_t>& met);
   bool block_near_balls(const RestrictedDelaunay& delaunay, CellId cell, std::uint32_t since);
   bool block_around(const Point3& p, double radius);
+  bool block(Site site);
   bool block_removed(const RestrictedDelaunay& delaunay);
   bool touches(int depth, Site site) const;
   std::array<Tet, 4> tets_along(Site site, int axis) const;

@@ -22,7 +22,10 @@ void group_by(const std::vector<std::size_t>& keys, std::size_t groups, std::vec
 
 LandmarkWatch::LandmarkWatch(Landmarks landmarks)
     : points_(std::move(landmarks.points)), links_(std::move(landmarks.links)) {
-  for (const auto& [a, b] : links_) reach_ = std::max(reach_, distance(points_[a], points_[b]));
+  for (const auto& [a, b] : links_) {
+    const Vector3 link = points_[a] - points_[b];
+    for (int axis = 0; axis < 3; ++axis) reach_[axis] = std::max(reach_[axis], std::abs(link[axis]));
+  }
   std::vector<std::size_t> ends;
   for (const auto& [a, b] : links_) ends.insert(ends.end(), {a, b});
   group_by(ends, points_.size(), first_link_, links_of_);
@@ -36,8 +39,8 @@ void LandmarkWatch::sort_into_cubes() {
   // Landmarks lie on the surface's voxels: cubes of two links' width hold a handful each.
   const double most_cubes = static_cast<double>(points_.size()) + 64;
   const Vector3 extent = box_.max - box_.min;
-  width_ =
-      std::max({2 * reach_, std::cbrt(extent.x * extent.y * extent.z / most_cubes), 1e-300, box_.diagonal() / 1000});
+  const double two_links = 2 * std::max({reach_.x, reach_.y, reach_.z});
+  width_ = std::max({two_links, std::cbrt(extent.x * extent.y * extent.z / most_cubes), 1e-300, box_.diagonal() / 1000});
   for (int axis = 0; axis < 3; ++axis) counts_[axis] = static_cast<int>(extent[axis] / width_) + 1;
   std::vector<std::size_t> cubes;
   for (const Point3& p : points_) cubes.push_back(cube_index(cube_of(p)));
@@ -65,8 +68,7 @@ std::vector<LandmarkWatch::Due> LandmarkWatch::take_due() {
     return due;
   }
   for (const Change& change : changes_) {
-    const Vector3 margin{reach_, reach_, reach_};
-    const Box3 box{change.box.min - margin, change.box.max + margin};
+    const Box3 box{change.box.min - reach_, change.box.max + reach_};
     const auto low = cube_of(box.min), high = cube_of(box.max);
     std::array<int, 3> cube;
     for (cube[2] = low[2]; cube[2] <= high[2]; ++cube[2]) {

@@ -50,7 +50,7 @@ class LandmarkWatch {
 
   std::vector<Point3> points_;
   std::vector<std::array<std::uint32_t, 2>> links_;
-  double reach_ = 0;  // the longest link
+  Vector3 reach_;  // what the longest link spans along each axis
   bool all_ = true;
   std::vector<Change> changes_;
 

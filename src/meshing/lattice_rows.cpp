@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
+#include "core/round.h"
 
 namespace delvox {
 namespace {
@@ -33,7 +34,7 @@ class RowCaster {
   };
 
   std::int32_t first_at(double lowest, double origin) const {
-    return static_cast<std::int32_t>(std::ceil((lowest - origin) / rows_.step - rows_.shift));
+    return static_cast<std::int32_t>(ceil_to_int((lowest - origin) / rows_.step - rows_.shift));
   }
 
   void cast_at(FacetId facet, std::vector<Hit>& hits) const {

@@ -109,6 +109,7 @@ class Refinement {
   };
   /// A matter of the mesh alone, never of the number of threads.
   static constexpr std::size_t kLanes = 8;
+  static_assert(kLanes <= RestrictedDelaunay::kMostLanes);
   /// kTwoFaced: faces inside or outside with both sides, and its ball is too small to be split.
   enum class Verdict { kGood, kSplit, kTooDeviant, kTwoFaced };
   /// Of one component; vertices that are not there are kNone.
@@ -148,7 +149,8 @@ class Refinement {
   std::optional<VertexId> insert_on_surface(const Point3& p, CellId hint);
   void mark_dirty(FacetId facet);
   void mark_dirty(VertexId vertex);
-  bool repair_umbrella(VertexId vertex);
+  bool repair_umbrella(VertexId vertex, bool may_defer);
+  bool repair_deferred_umbrellas();
 
   // Sharp edges (feature_refinement.cpp)
   enum class AtFeature { kClear, kLeave, kSplit };
@@ -175,10 +177,10 @@ class Refinement {
   /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
   bool repair_topology();
   /// For meshes fine enough that the oracle has landmarks: one insertion for each landmark on the wrong side of the
-  /// mesh; if there is none, for each link that does not stay on its side; if there is none, for each piece without a
-  /// landmark; if there is none, for each Voronoi edge that makes an excursion to the other side. True if anything was
-  /// inserted. All but the last is not in the book: trilinear surfaces have necks and gaps of any width, which no size
-  /// field foresees.
+  /// mesh; if there is none, for each link that does not stay on its side; if there is none, step 5 where it waited for
+  /// these; if there is none, for each piece without a landmark; if there is none, for each Voronoi edge that makes an
+  /// excursion to the other side. True if anything was inserted. All but umbrellas and Voronoi edges is not in the book:
+  /// trilinear surfaces have necks and gaps of any width, which no size field foresees.
   bool repair_landmarks();
 
   // Folds (fold_repair.cpp)
@@ -281,6 +283,7 @@ class Refinement {
   std::size_t vertices_at_first_look_ = 0, closer_insertions_ = 0;
   RepairEffort effort_;
   std::vector<VertexId> since_smooth_;  // vertices whose umbrella has changed since Smooth looked at it
+  std::vector<VertexId> deferred_;    // umbrellas whose balls are so small that landmarks come first
   std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
   std::vector<RefinementQueues::WaitingFacet> two_faced_;  // given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;

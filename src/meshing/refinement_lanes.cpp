@@ -4,6 +4,7 @@
 
 #include "core/freed_memory.h"
 #include "core/parallel.h"
+#include "core/sort_by_key.h"
 #include "delaunay/spatial_order.h"
 #include "meshing/refinement.h"
 
@@ -78,9 +79,7 @@ void Refinement::sort_by_place(std::vector<Waiting>& entries, std::size_t first,
       keys[i] = {place_along_curve(delaunay_.point(corner), box), static_cast<std::uint32_t>(i)};
     }
   });
-  parallel_sort(keys, [](const Keyed& a, const Keyed& b) {
-    return a.key != b.key ? a.key < b.key : a.position < b.position;
-  });
+  sort_by_key(keys);
   std::vector<Waiting> sorted(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(first));
   for (const Keyed& key : keys) sorted.push_back(entries[first + key.position]);
   entries = std::move(sorted);
@@ -102,7 +101,7 @@ void Refinement::run_lanes(RefinementQueues& aside) {
   };
   std::size_t busy = kLanes;
   while (2 * busy > kLanes && !budget_.exhausted()) {
-    std::uint32_t claim = delaunay_.new_claims(kLanes);
+    std::uint32_t claim = delaunay_.new_claims();
     for (RefinementLane& lane : lanes_) lane.lane.claim = claim++;
     for_each_lane([&](RefinementLane& lane) { look(lane, lane.queues, false); });
     keep_to_budget();
@@ -135,7 +134,7 @@ void Refinement::run_alone(std::size_t at_least) {
   RefinementLane& lane = lanes_.front();
   for (std::size_t done = 0; queues_.waiting() > 0; ++done) {
     if (done >= at_least && enough_for_lanes(queues_.waiting())) break;
-    lane.lane.claim = delaunay_.new_claims(1);
+    lane.lane.claim = delaunay_.new_claim();
     look(lane, queues_, true);
     if (lane.insertion && !budget_left()) break;
     furnish(lane);

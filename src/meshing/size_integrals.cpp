@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/flat_hash.h"
+#include "core/round.h"
 
 namespace delvox {
 namespace {
@@ -101,7 +102,7 @@ class Measurer {
     }
     std::uint64_t key = static_cast<std::uint64_t>(step_) & 0x3ff;
     for (int axis = 0; axis < 3; ++axis) {
-      const auto place = static_cast<std::int64_t>(std::floor(p[axis] * per_mm_));
+      const auto place = floor_to_int(p[axis] * per_mm_);
       key = key << 18 | (static_cast<std::uint64_t>(place) & 0x3ffff);
     }
     std::uint32_t& number = numbers_[key];

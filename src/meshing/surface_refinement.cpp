@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "delvox/core/errors.h"
 #include "meshing/refinement.h"
@@ -98,7 +99,7 @@ std::optional<SurfaceBall> Refinement::find_ball(FacetId facet, const Oracle& or
   SurfaceBall largest, excess;
   double most = 1;
   for (const Point3& center : crossings) {
-    const SurfaceBall ball{center, squared_distance(center, corner), crossings.size() > 1};
+    const SurfaceBall ball{center, squared_distance(center, corner)};
     const double size = surface_.size(center), ratio = ball.squared_radius / (size * size);
     if (ball.squared_radius > largest.squared_radius) largest = ball;
     if (ratio > most) most = ratio, excess = ball;
@@ -173,13 +174,25 @@ bool Refinement::repair_topology() {
   if (!surface_.topo_disk) return false;
   for (VertexId vertex : without_disk(delaunay_, round)) {
     if (!budget_left()) return inserted;
-    inserted |= repair_umbrella(vertex);
+    inserted |= repair_umbrella(vertex, !watch_.empty());
   }
   return inserted;
 }
 
-/// TopoDisk(p): if T_p is no disk, inserts the centre of its largest surface ball.
-bool Refinement::repair_umbrella(VertexId vertex) {
+/// Step 5 for those that waited for landmarks and links.
+bool Refinement::repair_deferred_umbrellas() {
+  bool inserted = false;
+  for (VertexId vertex : std::exchange(deferred_, {})) {
+    if (!budget_left()) return inserted;
+    inserted |= repair_umbrella(vertex, false);
+  }
+  return inserted;
+}
+
+/// TopoDisk(p): if T_p is no disk, inserts the centre of its largest surface ball. Where that is small, a neck or gap
+/// may be missing, and the smaller the balls, the more of them it would take: if it `may_defer`, it waits until
+/// landmarks and links have what they ask for.
+bool Refinement::repair_umbrella(VertexId vertex, bool may_defer) {
   if (delaunay_.kind(vertex) != VertexKind::kSurface) return false;
   const Umbrella umbrella = find_umbrella(delaunay_, vertex);
   if (umbrella.disk) return false;
@@ -195,6 +208,12 @@ bool Refinement::repair_umbrella(VertexId vertex) {
     if (ball->squared_radius <= largest.squared_radius) continue;
     largest = *ball;
     facet = candidate;
+  }
+  constexpr double kSmall = 0.25;  // of the size
+  const double small = kSmall * surface_.size(largest.center);
+  if (may_defer && largest.squared_radius < small * small) {
+    deferred_.push_back(vertex);
+    return false;
   }
   if (largest.squared_radius <= surface_.min_ball_radius * surface_.min_ball_radius) {
     unrepaired_.push_back(vertex);
@@ -217,7 +236,11 @@ void Refinement::report_unmet() {
   };
   std::size_t broken = 0;
   Point3 where;
-  if (effort_.hopeless()) unrepaired_.insert(unrepaired_.end(), dirty_.begin(), dirty_.end());
+  if (effort_.hopeless()) {
+    for (const auto* waiting : {&dirty_, &deferred_}) {
+      unrepaired_.insert(unrepaired_.end(), waiting->begin(), waiting->end());
+    }
+  }
   std::sort(unrepaired_.begin(), unrepaired_.end());
   unrepaired_.erase(std::unique(unrepaired_.begin(), unrepaired_.end()), unrepaired_.end());
   for (VertexId vertex : unrepaired_) {

@@ -105,7 +105,7 @@ bool Refinement::find_encroached_ball(const Star& star, const Oracle& oracle, Su
       const SurfaceBall* ball = delaunay_.ball({cell, i});
       if (ball == nullptr) continue;
       consider(ball->center, ball->squared_radius);
-      if (!ball->several) continue;
+      if (variant_.restricted == Restricted::kBipolar) continue;  // else the triangle may have others too
       const Point3& corner = delaunay_.point(delaunay_.vertices(FacetId{cell, i})[0]);
       for (const Point3& center : delaunay_.dual_crossings({cell, i}, oracle)) {
         consider(center, squared_distance(center, corner));

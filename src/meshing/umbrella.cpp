@@ -38,44 +38,52 @@ bool is_one_cycle(std::span<const LinkEdge> edges) {
   return length == edges.size();
 }
 
-/// The link edges of all vertices, vertex after vertex; those of one vertex in any order.
-class Links {
+/// visit(facet, link edge) for each restricted triangle at a vertex, once.
+template <class Visit>
+void for_each_triangle_at(const RestrictedDelaunay& delaunay, VertexId vertex, const Visit& visit) {
+  for (CellId cell : delaunay.incident_cells(vertex)) {
+    const Label label = delaunay.label(cell);
+    if (label == 0) continue;
+    const auto& corners = delaunay.vertices(cell);
+    for (int i = 0; i < 4; ++i) {
+      // Each facet is met from both of its cells: take it from the one with the larger label.
+      if (corners[i] == vertex || label <= delaunay.label(delaunay.neighbors(cell)[i])) continue;
+      const auto triangle = delaunay.vertices(FacetId{cell, i});
+      const auto own = std::find(triangle.begin(), triangle.end(), vertex) - triangle.begin();
+      visit(FacetId{cell, i}, opposite(triangle, static_cast<int>(own)));
+    }
+  }
+}
+
+/// The restricted triangles at each vertex, in any order: of their corners, each knows the next at the same vertex.
+class TrianglesAt {
  public:
-  explicit Links(const RestrictedDelaunay& delaunay) : first_(delaunay.vertex_capacity() + 1, 0) {
+  explicit TrianglesAt(const RestrictedDelaunay& delaunay)
+      : delaunay_(delaunay), triangles_(restricted_triangles(delaunay)), first_(delaunay.vertex_capacity(), kNone) {
     constexpr std::size_t kChunk = 1 << 12;
-    using Corners = std::array<VertexId, 3>;
-    const auto triangles = gather_chunks<Corners>(
-        delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end, std::vector<Corners>& found) {
-          for_each_restricted_triangle(delaunay, begin, end,
-                                       [&](FacetId facet) { found.push_back(delaunay.vertices(facet)); });
-        });
-    const auto for_each_corner = [&](const auto& visit) {
-      for_each_chunk(triangles.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          for (int corner = 0; corner < 3; ++corner) visit(triangles[i], corner);
+    next_.grow_to(3 * triangles_.size());
+    for_each_chunk(triangles_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t t = begin; t < end; ++t) {
+        const auto corners = delaunay_.vertices(triangles_[t]);
+        for (std::size_t k = 0; k < 3; ++k) {
+          std::atomic_ref first(first_[corners[k]]);
+          next_[3 * t + k] = first.exchange(static_cast<std::uint32_t>(3 * t + k), std::memory_order_relaxed);
         }
-      });
-    };
-    const auto count_one = [](std::uint32_t& counter) {
-      return std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed);
-    };
-    for_each_corner([&](const Corners& triangle, int corner) { count_one(first_[triangle[corner] + 1]); });
-    for (std::size_t v = 1; v < first_.size(); ++v) first_[v] += first_[v - 1];
-    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    edges_.grow_to(first_.back());
-    for_each_corner([&](const Corners& triangle, int corner) {
-      edges_[count_one(next[triangle[corner]])] = opposite(triangle, corner);
+      }
     });
   }
 
-  std::span<const LinkEdge> of(VertexId vertex) const {
-    const std::size_t count = first_[vertex + 1] - first_[vertex];
-    return count == 0 ? std::span<const LinkEdge>() : std::span(&edges_[first_[vertex]], count);
+  void find_link(VertexId vertex, std::vector<LinkEdge>& link) const {
+    for (std::uint32_t corner = first_[vertex]; corner != kNone; corner = next_[corner]) {
+      link.push_back(opposite(delaunay_.vertices(triangles_[corner / 3]), static_cast<int>(corner % 3)));
+    }
   }
 
  private:
+  const RestrictedDelaunay& delaunay_;
+  std::vector<FacetId> triangles_;
   std::vector<std::uint32_t> first_;
-  PageArray<LinkEdge> edges_;
+  PageArray<std::uint32_t> next_;
 };
 
 }  // namespace
@@ -83,37 +91,34 @@ class Links {
 Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
   Umbrella umbrella;
   std::vector<LinkEdge> link;
-  for (CellId cell : delaunay.incident_cells(vertex)) {
-    for (int i = 0; i < 4; ++i) {
-      const CellId neighbor = delaunay.neighbors(cell)[i];
-      // Each facet is met from both of its cells: take it from the one with the larger label.
-      if (delaunay.label(cell) <= delaunay.label(neighbor)) continue;
-      const auto corners = delaunay.vertices(FacetId{cell, i});
-      const auto own = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
-      if (own == 3) continue;
-      umbrella.facets.push_back({cell, i});
-      link.push_back(opposite(corners, static_cast<int>(own)));
-    }
-  }
+  for_each_triangle_at(delaunay, vertex, [&](FacetId facet, const LinkEdge& edge) {
+    umbrella.facets.push_back(facet);
+    link.push_back(edge);
+  });
   umbrella.disk = is_one_cycle(link);
   return umbrella;
 }
 
 std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
-  constexpr std::size_t kSweepPays = 16;  // a sweep costs about as much as walking around a vertex in sixteen
+  constexpr std::size_t kSweepPays = 8;  // a sweep costs about as much as walking around a vertex in eight
   constexpr std::size_t kChunk = 256;
-  const auto select = [&](const auto& disk) {
+  const auto select = [&](const auto& find_link) {
     return gather_chunks<VertexId>(vertices.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
+      std::vector<LinkEdge> link;
       for (std::size_t i = begin; i < end; ++i) {
-        if (!disk(vertices[i])) found.push_back(vertices[i]);
+        link.clear();
+        find_link(vertices[i], link);
+        if (!is_one_cycle(link)) found.push_back(vertices[i]);
       }
     });
   };
   if (vertices.size() * kSweepPays < delaunay.vertex_capacity()) {
-    return select([&](VertexId v) { return find_umbrella(delaunay, v).disk; });
+    return select([&](VertexId v, std::vector<LinkEdge>& link) {
+      for_each_triangle_at(delaunay, v, [&](FacetId, const LinkEdge& edge) { link.push_back(edge); });
+    });
   }
-  const Links links(delaunay);
-  return select([&](VertexId v) { return is_one_cycle(links.of(v)); });
+  const TrianglesAt triangles(delaunay);
+  return select([&](VertexId v, std::vector<LinkEdge>& link) { triangles.find_link(v, link); });
 }
 
 }  // namespace delvox

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/round.h"
+
 namespace delvox {
 namespace {
 
 using Cube = std::array<std::int64_t, 3>;
 
 Cube cube_of(const Point3& p, double width) {
-  return {static_cast<std::int64_t>(std::floor(p.x / width)), static_cast<std::int64_t>(std::floor(p.y / width)),
-          static_cast<std::int64_t>(std::floor(p.z / width))};
+  return {floor_to_int(p.x / width), floor_to_int(p.y / width), floor_to_int(p.z / width)};
 }
 
 Cube block_of(const Cube& cube) {

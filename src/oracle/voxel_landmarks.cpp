@@ -11,8 +11,6 @@ using Index3 = std::array<int, 3>;
 using Wanted = std::function<bool(const Point3&)>;
 constexpr int kBlock = BrickField::kBlock, kBrick = BrickField::kBrick;
 constexpr auto& kStride = BrickField::kBlockStride;
-/// Points along a segment of the skeleton, its ends apart.
-constexpr int kPerSegment = 3;
 constexpr std::uint32_t kNotYet = 0xffffffffu, kUnwanted = 0xfffffffeu;
 
 class LandmarkFinder {
@@ -158,16 +156,7 @@ class LandmarkFinder {
   }
 
   void add_segment(std::uint32_t first, std::uint32_t last) {
-    if (first == kUnwanted || last == kUnwanted) return;
-    const Point3 a = result_.points[first], b = result_.points[last];
-    std::uint32_t before = first;
-    for (int step = 1; step <= kPerSegment; ++step) {
-      const std::uint32_t next = add_point(a + (step / (kPerSegment + 1.0)) * (b - a));
-      if (next == kUnwanted) return;
-      result_.links.push_back({before, next});
-      before = next;
-    }
-    result_.links.push_back({before, last});
+    if (first != kUnwanted && last != kUnwanted) result_.links.push_back({first, last});
   }
 
   const BrickField& field_;

@@ -84,7 +84,7 @@ TEST(Lanes, OnlyThoseThatDoNotTouchTheSameCellsHoldTheirClaimsTheGreatestAlways)
   std::size_t held = 0, lost = 0;
   for (int round = 0; round < 60; ++round) {
     std::vector<Lane> lanes(12);
-    std::uint32_t claim = delaunay.new_claims(12);
+    std::uint32_t claim = delaunay.new_claims();
     for (Lane& lane : lanes) {
       lane.claim = claim++;
       delaunay.evaluate(random.in(kBox), delaunay.created().front(), delaunay.worker(), lane.star);
@@ -98,7 +98,7 @@ TEST(Lanes, OnlyThoseThatDoNotTouchTheSameCellsHoldTheirClaimsTheGreatestAlways)
         continue;
       }
       ++held;
-      std::vector<CellId> cells = lane.star.zone;
+      std::vector<CellId> cells(lane.star.zone.begin(), lane.star.zone.end());
       for (const Star::Tet& tet : lane.star.tets) cells.push_back(tet.outer.cell);
       std::sort(cells.begin(), cells.end());
       cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
@@ -120,13 +120,38 @@ TEST(Lanes, OnlyThoseThatDoNotTouchTheSameCellsHoldTheirClaimsTheGreatestAlways)
   EXPECT_EQ(delaunay.vertex_count(), 300 + held);
 }
 
+/// What a cell remembers of claims comes again after 4096 rounds.
+TEST(Lanes, AreKeptByClaimsOfOldForOneRoundAtMostAndInsertionsAloneNever) {
+  const auto oracle = ball();
+  RestrictedDelaunay delaunay(*oracle);
+  delaunay.insert_seeds(points(300, false, 6));
+  const Point3 p{0.1, 0.2, 0.3};
+  const auto claim_as = [&](Lane& lane, std::uint32_t claim) {
+    lane.claim = claim;
+    delaunay.evaluate(p, delaunay.created().front(), delaunay.worker(), lane.star);
+    delaunay.claim(lane);
+  };
+  Lane old, lane;
+  claim_as(old, delaunay.new_claims() + 5);
+  for (int round = 1; round < 4096; ++round) delaunay.new_claims();
+  claim_as(lane, delaunay.new_claims() + 2);
+  EXPECT_FALSE(delaunay.holds(lane));
+  claim_as(lane, delaunay.new_claims() + 2);
+  EXPECT_TRUE(delaunay.holds(lane));
+
+  claim_as(old, delaunay.new_claims() + 14);
+  for (int round = 1; round < 4096; ++round) delaunay.new_claims();
+  claim_as(lane, delaunay.new_claim());
+  EXPECT_TRUE(delaunay.holds(lane));
+}
+
 TEST(Lanes, GiveBackWhatTheyDoNotUse) {
   const auto oracle = ball();
   RestrictedDelaunay delaunay(*oracle);
   delaunay.insert_seeds(points(200, false, 5));
   const auto furnish_and_clear = [&] {
     Lane lane;
-    lane.claim = delaunay.new_claims(1);
+    lane.claim = delaunay.new_claim();
     delaunay.evaluate({0.1, 0.2, 0.3}, delaunay.created().front(), delaunay.worker(), lane.star);
     delaunay.furnish(lane, true, 5);
     delaunay.clear_out(lane);

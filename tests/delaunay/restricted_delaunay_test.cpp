@@ -102,10 +102,9 @@ class Workout {
       EXPECT_TRUE(star.tets.empty());
       return;
     }
-    const Star before = star;
     const VertexId vertex = delaunay_.commit(random_.below(2) ? VertexKind::kSurface : VertexKind::kInterior);
     present_.push_back(vertex);
-    expect_star_came_true(before, vertex);
+    expect_star_came_true(star, vertex);
   }
 
   void remove() {

@@ -26,10 +26,12 @@ Landmarks random_landmarks(int count, Random& random) {
   return landmarks;
 }
 
-double longest_link(const Landmarks& landmarks) {
-  double longest = 0;
+/// What the longest link spans along each axis.
+Vector3 longest_spans(const Landmarks& landmarks) {
+  Vector3 longest;
   for (const auto& [a, b] : landmarks.links) {
-    longest = std::max(longest, distance(landmarks.points[a], landmarks.points[b]));
+    const Vector3 link = landmarks.points[a] - landmarks.points[b];
+    for (int axis = 0; axis < 3; ++axis) longest[axis] = std::max(longest[axis], std::abs(link[axis]));
   }
   return longest;
 }
@@ -64,7 +66,7 @@ TEST(LandmarkWatch, AllAreDueAtFirstAndThenNone) {
 TEST(LandmarkWatch, ThoseWithinALinkOfAChangeAreDueOnceInOrderWithTheVertexOfTheFirstChange) {
   Random random(2);
   const Landmarks landmarks = random_landmarks(400, random);
-  const double reach = longest_link(landmarks);
+  const Vector3 margin = longest_spans(landmarks);
   LandmarkWatch watch(landmarks);
   watch.take_due();
   std::size_t met = 0;
@@ -79,7 +81,6 @@ TEST(LandmarkWatch, ThoseWithinALinkOfAChangeAreDueOnceInOrderWithTheVertexOfThe
     std::vector<VertexId> near;
     for (std::uint32_t i = 0; i < landmarks.points.size(); ++i) {
       const auto first = std::find_if(boxes.begin(), boxes.end(), [&](const Box3& box) {
-        const Vector3 margin{reach, reach, reach};
         return Box3{box.min - margin, box.max + margin}.contains(landmarks.points[i]);
       });
       if (first == boxes.end()) continue;

@@ -20,7 +20,7 @@ INSTANTIATE_TEST_SUITE_P(Phantoms, Threads,
                          testing::Values(PhantomCase{"sphere", test::cubic_image(32), 0.9},
                                          PhantomCase{"gyroid", test::cubic_image(16), 0.5},
                                          PhantomCase{"shells", test::cubic_image(28), 1.0},
-                                         PhantomCase{"noisy-sphere", test::with_noise(test::cubic_image(14), 0.7), 0.6}),
+                                         PhantomCase{"noisy-sphere", test::with_noise(test::cubic_image(14), 0.7), 0.5}),
                          [](const auto& info) { return test::test_name(info.param); });
 
 TEST_P(Threads, OneTwoAndFourMakeTheSameMeshes) {

@@ -92,5 +92,7 @@ const char* to_string(Frame frame);
 
 /// Region of space as an oracle sees it: 0 is outside, for an isosurface 1 is inside.
 using Label = std::int32_t;
+/// The largest that an oracle may give. Meshes read from files may have any.
+inline constexpr Label kLargestLabel = 0xffff;
 
 }  // namespace delvox

@@ -70,7 +70,7 @@ class Oracle {
 
   /// Box in world coordinates with the whole surface inside it; the label is 0 outside the box.
   virtual Box3 bounds() const = 0;
-  /// Region at a point: 0 outside; for an isosurface 1 inside.
+  /// Region at a point: 0 outside, else 1 to kLargestLabel; for an isosurface 1 inside.
   virtual Label label(const Point3& p) const = 0;
   /// A point on the surface between a and b. pre: label(a) != label(b).
   virtual Point3 intersect(const Point3& a, const Point3& b) const = 0;

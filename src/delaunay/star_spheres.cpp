@@ -1,0 +1,52 @@
+#include "delaunay/star_spheres.h"
+
+#include <algorithm>
+
+#include "delaunay/circumsphere.h"
+
+namespace delvox {
+namespace {
+
+using Pair = double __attribute__((vector_size(16)));
+struct PairVector {
+  Pair x, y, z;
+};
+PairVector operator+(const PairVector& a, const PairVector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+PairVector operator*(Pair s, const PairVector& a) { return {s * a.x, s * a.y, s * a.z}; }
+Pair dot(const PairVector& a, const PairVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+PairVector cross(const PairVector& a, const PairVector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+}  // namespace
+
+/// Step by step as circumsphere() does it, so that rounding is the same.
+void StarSpheres::find_all(Star& star, std::span<const std::array<std::uint32_t, 3>> names) const {
+  const Point3 apex = star.apex;
+  for (std::size_t first = 0; first < star.tets.size(); first += 2) {
+    const std::array<std::size_t, 2> tets{first, std::min(first + 1, star.tets.size() - 1)};
+    std::array<PairVector, 3> spoke;
+    std::array<Pair, 3> squared;
+    for (int i = 0; i < 3; ++i) {
+      const Spoke &a = spokes_[names[tets[0]][i]], &b = spokes_[names[tets[1]][i]];
+      spoke[i] = {Pair{a.x, b.x}, Pair{a.y, b.y}, Pair{a.z, b.z}};
+      squared[i] = Pair{a.squared, b.squared};
+    }
+    const auto& [u, v, w] = spoke;
+    const PairVector vw = cross(v, w);
+    const Pair six_volume = dot(u, vw);
+    const Pair safe = six_volume * six_volume - kSafeRatio * squared[0] * squared[1] * squared[2];
+    const PairVector offset =
+        (0.5 / six_volume) * (squared[0] * vw + squared[1] * cross(w, u) + squared[2] * cross(u, v));
+    const Pair squared_radius = dot(offset, offset);
+    for (int i = 0; i < 2; ++i) {
+      Circumsphere& sphere = star.tets[tets[i]].sphere;
+      sphere = {apex + Vector3{offset.x[i], offset.y[i], offset.z[i]}, squared_radius[i]};
+      if (safe[i] >= 0) continue;
+      const auto end = [&](int k) -> const Point3& { return *spokes_[names[tets[i]][k]].end; };
+      sphere = circumsphere(apex, end(0), end(1), end(2));
+    }
+  }
+}
+
+}  // namespace delvox
