@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "delvox/meshing/deltetsurf.h"
+#include "delvox/meshing/remove_slivers.h"
 #include "delvox/oracle/implicit_oracle.h"
 
 namespace delvox::test {
@@ -85,7 +86,9 @@ TetMesh tets_of(const Oracle& oracle, double size) {
   options.surface.size = size;
   options.tets.cell_size = size;
   RunReport report;
-  return deltetsurf(oracle, options, report);
+  TetMesh mesh = deltetsurf(oracle, options, report);
+  remove_slivers(mesh, oracle, {15, options.surface, options.tets, {}}, report);
+  return mesh;
 }
 
 std::string number_of(std::uint32_t point) {

@@ -39,7 +39,7 @@ class Calculix {
 /// The ball {|p| < radius}, or the shell {inner < |p| < radius} if inner > 0.
 std::unique_ptr<SmoothOracle> ball(double radius, double inner = 0);
 
-/// Its tets at a size, of first order.
+/// Its tets at a size, of first order, without slivers as those of the program.
 TetMesh tets_of(const Oracle& oracle, double size);
 
 /// Names of nodes by number, for requests: 1 for point 0.
