@@ -29,24 +29,24 @@ constexpr Costs kSurfaceCosts{
     .vertices = {.surface = 0.85},
     .triangles = {.surface = 1.7},
     .tets = {},
-    .seconds = {.surface = 10e-6, .thin = 14e-6, .samples = 0.13e-6},
-    .bytes = {.surface = 730, .samples = 13, .constant = 15e6},
+    .seconds = {.surface = 13e-6, .thin = 19e-6, .samples = 0.17e-6},
+    .bytes = {.surface = 640, .samples = 13, .constant = 1e6},
 };
 // With an interior lattice, whose deep part is not inserted.
 constexpr Costs kTetCosts{
     .vertices = {.surface = 0.53, .graded = 0.6, .volume = 0.68},
     .triangles = {.surface = 1.72},
     .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.13},
-    .seconds = {.surface = 10e-6, .graded = 3.8e-6, .volume = 3.8e-6, .deep = -2e-6, .thin = 15e-6, .samples = 0.15e-6},
-    .bytes = {.surface = 580, .graded = 410, .volume = 440, .deep = -240, .samples = 27, .constant = 14e6},
+    .seconds = {.surface = 13e-6, .graded = 5e-6, .volume = 5e-6, .deep = -2.7e-6, .thin = 20e-6, .samples = 0.2e-6},
+    .bytes = {.surface = 510, .graded = 365, .volume = 390, .deep = -215, .samples = 27},
 };
 // Without, where the cell size varies.
 constexpr Costs kVaryingTetCosts{
     .vertices = {.surface = 0.53, .graded = 0.6, .volume = 0.75},
     .triangles = {.surface = 1.72},
     .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.75},
-    .seconds = {.surface = 10e-6, .graded = 3.8e-6, .volume = 5.3e-6, .thin = 15e-6, .samples = 0.15e-6},
-    .bytes = {.surface = 580, .graded = 410, .volume = 700, .samples = 27, .constant = 14e6},
+    .seconds = {.surface = 13e-6, .graded = 5e-6, .volume = 7e-6, .thin = 20e-6, .samples = 0.2e-6},
+    .bytes = {.surface = 510, .graded = 365, .volume = 620, .samples = 27},
 };
 
 Estimate estimate(const Costs& costs, const SizeIntegrals& sizes, const MeasuredDomain& domain) {
