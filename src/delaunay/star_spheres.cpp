@@ -1,7 +1,5 @@
 #include "delaunay/star_spheres.h"
 
-#include <algorithm>
-
 #include "delaunay/circumsphere.h"
 
 namespace delvox {
@@ -20,11 +18,12 @@ PairVector cross(const PairVector& a, const PairVector& b) {
 
 }  // namespace
 
-/// Step by step as circumsphere() does it, so that rounding is the same.
+/// Step by step as circumsphere() does it, so that rounding is the same. There is an even number of tets: their outer
+/// triangles form a closed surface.
 void StarSpheres::find_all(Star& star, std::span<const std::array<std::uint32_t, 3>> names) const {
   const Point3 apex = star.apex;
   for (std::size_t first = 0; first < star.tets.size(); first += 2) {
-    const std::array<std::size_t, 2> tets{first, std::min(first + 1, star.tets.size() - 1)};
+    const std::array<std::size_t, 2> tets{first, first + 1};
     std::array<PairVector, 3> spoke;
     std::array<Pair, 3> squared;
     for (int i = 0; i < 3; ++i) {

@@ -283,8 +283,8 @@ class Refinement {
   std::size_t vertices_at_first_look_ = 0, closer_insertions_ = 0;
   RepairEffort effort_;
   std::vector<VertexId> since_smooth_;  // vertices whose umbrella has changed since Smooth looked at it
-  std::vector<VertexId> deferred_;    // umbrellas whose balls are so small that landmarks come first
-  std::vector<VertexId> unrepaired_;  // umbrellas given up at the smallest ball radius
+  std::vector<VertexId> deferred_;      // umbrellas whose balls are so small that landmarks come first
+  std::vector<VertexId> unrepaired_;    // umbrellas given up at the smallest ball radius
   std::vector<RefinementQueues::WaitingFacet> two_faced_;  // given up at the smallest ball radius
   std::size_t too_deviant_ = 0, stuck_ = 0, lost_landmarks_ = 0;
   Point3 deviant_place_, stuck_place_, lost_place_;

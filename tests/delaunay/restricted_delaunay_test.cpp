@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <stdexcept>
 
 #include "delaunay_checks.h"
 #include "support/random.h"
@@ -248,6 +249,38 @@ TEST(RestrictedDelaunay, EvaluatingChangesNothing) {
   EXPECT_EQ(delaunay.created(), created);
   test::expect_delaunay(delaunay);
   test::expect_true_balls(delaunay, *oracle, true);
+}
+
+/// Two balls whose inside has any label.
+class Labelled final : public Oracle {
+ public:
+  explicit Labelled(Label inside) : inside_(inside) {}
+  Box3 bounds() const override { return balls_->bounds(); }
+  Label label(const Point3& p) const override { return balls_->label(p) != 0 ? inside_ : 0; }
+  Point3 intersect(const Point3& a, const Point3& b) const override { return balls_->intersect(a, b); }
+  std::vector<Point3> intersect_all(const Point3& a, const Point3& b) const override {
+    return balls_->intersect_all(a, b);
+  }
+  Seeds seeds(const SizeField& size, const GoOn& go_on) const override { return balls_->seeds(size, go_on); }
+  std::unique_ptr<Oracle> clone() const override { return std::make_unique<Labelled>(inside_); }
+
+ private:
+  std::unique_ptr<Oracle> balls_ = two_balls();
+  Label inside_;
+};
+
+TEST(RestrictedDelaunay, LabelsAreKeptUpToTheLargestAndOthersRefused) {
+  const std::vector<Point3> points = two_balls()->seeds(0.2).points;
+  const Labelled largest(kLargestLabel), beyond(kLargestLabel + 1), negative(-1);
+  RestrictedDelaunay delaunay(largest);
+  delaunay.insert_seeds(points);
+  std::set<Label> labels;
+  for (CellId cell : delaunay.created()) labels.insert(delaunay.label(cell));
+  EXPECT_EQ(labels, (std::set<Label>{0, kLargestLabel}));
+  for (const Labelled* oracle : {&beyond, &negative}) {
+    RestrictedDelaunay refuses(*oracle);
+    EXPECT_THROW(refuses.insert_seeds(points), std::out_of_range);
+  }
 }
 
 TEST(RestrictedDelaunay, TheZoneHoldsExactlyTheCellsWhoseSphereContainsTheApex) {
