@@ -15,7 +15,8 @@ MeshingSizes decide_sizes(const MeshingOptions& options, const MeshingDomain& do
   if (!options.cell_size.empty()) sizes.cell_size = parse_size(options.cell_size, "--cell-size", frame);
   if (!options.size.empty()) {
     sizes.request.emplace(options.size, frame);
-    sizes.size = sizes.request->field().value_or(SizeField(domain.default_size()));
+    const std::optional<SizeField> field = sizes.request->field();
+    sizes.size = field ? *field : SizeField(domain.default_size());  // which takes a look at every sample
     sizes.sentence = "size " + options.size + (sizes.request->field() && sizes.size.constant() ? " mm" : "");
   } else if (options.algorithm == "delsurf1") {
     sizes.request.emplace("lfs", frame);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/parallel.h"
 #include "delvox/core/errors.h"
 #include "delvox/volume/read_volume.h"
 #include "format.h"
@@ -89,27 +90,51 @@ struct Inside {
   double volume_mm3 = 0;
 };
 
-Inside measure_inside(const Volume& volume, const Isosurface& surface) {
-  const LevelSet level_set(surface);
-  const std::array<int, 3> dims = volume.dims();
+struct InsideSamples {
   Box3 indices;
   std::size_t count = 0;
-  std::vector<float> slice(static_cast<std::size_t>(dims[0]) * static_cast<std::size_t>(dims[1]));
-  for (int k = 0; k < dims[2]; ++k) {
-    volume.copy_block({0, 0, k}, {dims[0], dims[1], 1}, slice.data());
-    const float* sample = slice.data();
-    for (int j = 0; j < dims[1]; ++j) {
-      for (int i = 0; i < dims[0]; ++i) {
-        if (!level_set.inside(level_set.sign * *sample++)) continue;
-        indices.extend({double(i), double(j), double(k)});
-        ++count;
+};
+
+InsideSamples inside_samples(const Volume& volume, const LevelSet& level_set, int first_slice, int end_slice) {
+  const int columns = volume.dims()[0], rows = volume.dims()[1];
+  std::vector<float> samples(static_cast<std::size_t>(columns) * rows * (end_slice - first_slice));
+  volume.copy_block({0, 0, first_slice}, {columns, rows, end_slice - first_slice}, samples.data());
+  InsideSamples result;
+  const auto inside = [&](float sample) { return level_set.inside(level_set.sign * sample); };
+  const float* row = samples.data();
+  for (int k = first_slice; k < end_slice; ++k) {
+    for (int j = 0; j < rows; ++j, row += columns) {
+      const std::ptrdiff_t count = std::count_if(row, row + columns, inside);
+      if (count == 0) continue;
+      result.count += static_cast<std::size_t>(count);
+      const std::ptrdiff_t first = std::find_if(row, row + columns, inside) - row;
+      std::ptrdiff_t last = columns - 1;
+      while (!inside(row[last])) --last;
+      for (std::ptrdiff_t i : {first, last}) {
+        result.indices.extend({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
       }
     }
   }
-  if (count == 0) throw NothingToMesh("no sample of the volume is inside; choose another --iso, see delvox info");
-  const Vector3 spacing = volume.header().spacing(), steps = indices.max - indices.min;
+  return result;
+}
+
+Inside measure_inside(const Volume& volume, const Isosurface& surface) {
+  constexpr std::size_t kSlices = 8;  // as the volume holds them together
+  const LevelSet level_set(surface);
+  InsideSamples all;
+  for (const InsideSamples& part :
+       map_chunks(static_cast<std::size_t>(volume.dims()[2]), kSlices, [&](std::size_t begin, std::size_t end) {
+         return inside_samples(volume, level_set, static_cast<int>(begin), static_cast<int>(end));
+       })) {
+    if (part.count == 0) continue;
+    all.indices.extend(part.indices.min);
+    all.indices.extend(part.indices.max);
+    all.count += part.count;
+  }
+  if (all.count == 0) throw NothingToMesh("no sample of the volume is inside; choose another --iso, see delvox info");
+  const Vector3 spacing = volume.header().spacing(), steps = all.indices.max - all.indices.min;
   return {norm({steps.x * spacing.x, steps.y * spacing.y, steps.z * spacing.z}),
-          static_cast<double>(count) * voxel_mm3(volume)};
+          static_cast<double>(all.count) * voxel_mm3(volume)};
 }
 
 }  // namespace

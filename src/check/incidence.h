@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -46,7 +47,7 @@ inline constexpr auto triangle_key = [](const Triangle& t, int) { return face_ke
 
 /// One of the items that share a simplex.
 struct Incidence {
-  std::uint32_t item_and_parity;
+  std::uint32_t item_and_parity = 0;
   std::uint32_t item() const { return item_and_parity >> 1; }
   bool flipped() const { return (item_and_parity & 1) != 0; }
 };
@@ -108,29 +109,29 @@ class SimplexGroups {
     shift_ = 64 - std::countr_zero(size);
     slots_.assign(size, 0);
     groups_.clear();
-    entries_.clear();
+    more_.clear();
   }
   void add(std::uint64_t rest, std::uint32_t item, bool flipped) {
-    const auto entry = static_cast<std::uint32_t>(entries_.size());
-    entries_.push_back({{item << 1 | (flipped ? 1u : 0u)}, kEnd});
+    const Incidence incidence{item << 1 | (flipped ? 1u : 0u)};
     std::size_t slot = rest * 0x9E3779B97F4A7C15ull >> shift_;
     while (slots_[slot] != 0 && groups_[slots_[slot] - 1].rest != rest) slot = (slot + 1) & (slots_.size() - 1);
     if (slots_[slot] == 0) {
-      groups_.push_back({rest, entry, entry});
+      groups_.push_back({rest, {incidence, {}}, 1, kEnd, kEnd});
       slots_[slot] = static_cast<std::uint32_t>(groups_.size());
+      return;
+    }
+    Group& group = groups_[slots_[slot] - 1];
+    if (group.few < group.items.size()) {
+      group.items[group.few++] = incidence;
     } else {
-      Group& group = groups_[slots_[slot] - 1];
-      entries_[group.last].next = entry;
-      group.last = entry;
+      add_to_list(group, incidence);
     }
   }
   /// visit(span<const Incidence>) for each simplex in the order of its first item, items in the order they came.
   template <class Visit>
   void for_each(const Visit& visit) {
     for (const Group& group : groups_) {
-      sharing_.clear();
-      for (std::uint32_t e = group.first; e != kEnd; e = entries_[e].next) sharing_.push_back(entries_[e].incidence);
-      visit(std::span<const Incidence>(sharing_));
+      visit(group.first_more == kEnd ? std::span<const Incidence>(group.items.data(), group.few) : all_of(group));
     }
   }
 
@@ -138,17 +139,32 @@ class SimplexGroups {
   static constexpr std::uint32_t kEnd = ~std::uint32_t{0};
   struct Group {
     std::uint64_t rest;
-    std::uint32_t first, last;  // entries
+    std::array<Incidence, 2> items;  // more than two share a simplex of a bad mesh only
+    std::uint32_t few;               // of them
+    std::uint32_t first_more, last_more;
   };
-  struct Entry {
+  struct More {
     Incidence incidence;
     std::uint32_t next;
   };
+
+  void add_to_list(Group& group, Incidence incidence) {
+    const auto place = static_cast<std::uint32_t>(more_.size());
+    more_.push_back({incidence, kEnd});
+    (group.first_more == kEnd ? group.first_more : more_[group.last_more].next) = place;
+    group.last_more = place;
+  }
+  std::span<const Incidence> all_of(const Group& group) {
+    all_.assign(group.items.begin(), group.items.end());
+    for (std::uint32_t m = group.first_more; m != kEnd; m = more_[m].next) all_.push_back(more_[m].incidence);
+    return all_;
+  }
+
   int shift_ = 0;
   std::vector<std::uint32_t> slots_;  // 0, or 1 + a group
   std::vector<Group> groups_;
-  std::vector<Entry> entries_;
-  std::vector<Incidence> sharing_;
+  std::vector<More> more_;
+  std::vector<Incidence> all_;  // of the group in hand
 };
 
 /// Calls visit(span<const Incidence>, Result&) once for each distinct simplex, items ascending, in parallel; returns

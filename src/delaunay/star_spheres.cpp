@@ -1,23 +1,9 @@
 #include "delaunay/star_spheres.h"
 
+#include "core/pair_geometry.h"
 #include "delaunay/circumsphere.h"
 
 namespace delvox {
-namespace {
-
-using Pair = double __attribute__((vector_size(16)));
-struct PairVector {
-  Pair x, y, z;
-};
-PairVector operator+(const PairVector& a, const PairVector& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-PairVector operator*(Pair s, const PairVector& a) { return {s * a.x, s * a.y, s * a.z}; }
-Pair dot(const PairVector& a, const PairVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-PairVector cross(const PairVector& a, const PairVector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-}  // namespace
-
 /// Step by step as circumsphere() does it, so that rounding is the same. There is an even number of tets: their outer
 /// triangles form a closed surface.
 void StarSpheres::find_all(Star& star, std::span<const std::array<std::uint32_t, 3>> names) const {

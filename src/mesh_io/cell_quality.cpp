@@ -13,31 +13,46 @@ double angle_of_cosine(double cosine) {
   return std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
 }
 
+/// The edges at the first corners of two tets, and what both measures need of them.
+struct Spokes {
+  Spokes(const TetCorners& first, const TetCorners& second) {
+    const PairVector origin = PairVector::of(first[0], second[0]);
+    a = PairVector::of(first[1], second[1]) - origin;
+    b = PairVector::of(first[2], second[2]) - origin;
+    c = PairVector::of(first[3], second[3]) - origin;
+    bc = cross(b, c);
+    ca = cross(c, a);
+    ab = cross(a, b);
+    six_volumes = dot(a, bc);
+  }
+  PairVector a, b, c, bc, ca, ab;
+  Pair six_volumes;
+};
+
 }  // namespace
 
-double radius_edge_ratio(const std::array<Point3, 4>& p) {
-  const Vector3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
-  const Vector3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
-  const double volume6 = dot(a, bc);
-  if (!(volume6 != 0)) return Box3::kInfinity;
-  const double a2 = squared_norm(a), b2 = squared_norm(b), c2 = squared_norm(c);
-  const double shortest2 =
-      std::min({a2, b2, c2, squared_distance(p[1], p[2]), squared_distance(p[2], p[3]), squared_distance(p[3], p[1])});
-  return norm(a2 * bc + b2 * ca + c2 * ab) / (2 * std::abs(volume6) * std::sqrt(shortest2));
+Pair radius_edge_ratios(const TetCorners& first, const TetCorners& second) {
+  const Spokes s(first, second);
+  const Pair aa = squared_norm(s.a), bb = squared_norm(s.b), cc = squared_norm(s.c);
+  Pair shortest = min(min(aa, bb), cc);
+  for (const PairVector& edge : {s.b - s.a, s.c - s.b, s.a - s.c}) shortest = min(shortest, squared_norm(edge));
+  const Pair ratio = norm(aa * s.bc + bb * s.ca + cc * s.ab) / (2 * abs(s.six_volumes) * sqrt(shortest));
+  const Pair infinite{Box3::kInfinity, Box3::kInfinity};
+  return s.six_volumes == 0 ? infinite : ratio;
 }
 
-double min_dihedral_degrees(const std::array<Point3, 4>& p) {
-  const Vector3 a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
-  const Vector3 bc = cross(b, c), ca = cross(c, a), ab = cross(a, b);
-  if (!(dot(a, bc) != 0)) return 0;
+Pair min_dihedrals_degrees(const TetCorners& first, const TetCorners& second) {
+  const Spokes s(first, second);
   // Normals of the four faces, all outward or (for a negative tet) all inward.
-  std::array<Vector3, 4> normals{bc + ca + ab, -1.0 * bc, -1.0 * ca, -1.0 * ab};
-  for (Vector3& normal : normals) normal = (1.0 / norm(normal)) * normal;
-  double largest_cosine = -1;
+  const Pair minus{-1, -1};
+  std::array<PairVector, 4> normals{s.bc + s.ca + s.ab, minus * s.bc, minus * s.ca, minus * s.ab};
+  for (PairVector& normal : normals) normal = (1 / norm(normal)) * normal;
+  Pair largest_cosine = minus;
   for (int i = 0; i < 4; ++i) {
-    for (int j = 0; j < i; ++j) largest_cosine = std::max(largest_cosine, -dot(normals[i], normals[j]));
+    for (int j = 0; j < i; ++j) largest_cosine = max(largest_cosine, -dot(normals[i], normals[j]));
   }
-  return angle_of_cosine(largest_cosine);
+  const auto degrees = [&](int n) { return s.six_volumes[n] != 0 ? angle_of_cosine(largest_cosine[n]) : 0.0; };
+  return Pair{degrees(0), degrees(1)};
 }
 
 double min_angle_degrees(const std::array<Point3, 3>& p) {

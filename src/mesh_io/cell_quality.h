@@ -2,15 +2,18 @@
 
 #include <array>
 
+#include "core/pair_geometry.h"
 #include "delvox/core/geometry.h"
 
 namespace delvox::mesh_io {
 
-/// Circumradius / shortest edge of a tet; infinite for a flat one.
-double radius_edge_ratio(const std::array<Point3, 4>& p);
+using TetCorners = std::array<Point3, 4>;
 
-/// The smallest of the six dihedral angles of a tet; 0 for a flat one.
-double min_dihedral_degrees(const std::array<Point3, 4>& p);
+/// Circumradius / shortest edge of each of two tets; infinite for flat ones.
+Pair radius_edge_ratios(const TetCorners& first, const TetCorners& second);
+
+/// The smallest of the six dihedral angles of each of two tets; 0 for flat ones.
+Pair min_dihedrals_degrees(const TetCorners& first, const TetCorners& second);
 
 /// The smallest angle of a triangle; 0 if two corners coincide.
 double min_angle_degrees(const std::array<Point3, 3>& p);

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "core/sort_by_key.h"
+#include "delaunay/spatial_order.h"
+
 namespace delvox {
 namespace {
 
@@ -18,10 +21,49 @@ void group_by(const std::vector<std::size_t>& keys, std::size_t groups, std::vec
   for (std::uint32_t i = 0; i < keys.size(); ++i) members[next[keys[i]]++] = i;
 }
 
+/// An item of a list to be sorted.
+struct Keyed {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
+/// Landmarks along a curve, each link where the first of its ends comes: whoever looks at one after the other finds
+/// cells that lie near each other in memory.
+Landmarks along_curve(const Landmarks& landmarks) {
+  Box3 box;
+  for (const Point3& p : landmarks.points) box.extend(p);
+  std::vector<Keyed> entries;
+  entries.reserve(landmarks.points.size());
+  for (const Point3& p : landmarks.points) {
+    entries.push_back({place_along_curve(p, box), static_cast<std::uint32_t>(entries.size())});
+  }
+  sort_by_key(entries);
+  Landmarks result;
+  std::vector<std::uint32_t> number(entries.size());
+  result.points.reserve(entries.size());
+  for (const Keyed& entry : entries) {
+    number[entry.index] = static_cast<std::uint32_t>(result.points.size());
+    result.points.push_back(landmarks.points[entry.index]);
+  }
+  entries.clear();
+  for (const auto& [a, b] : landmarks.links) {
+    entries.push_back({std::min(number[a], number[b]), static_cast<std::uint32_t>(entries.size())});
+  }
+  sort_by_key(entries);
+  result.links.reserve(entries.size());
+  for (const Keyed& entry : entries) {
+    const auto& [a, b] = landmarks.links[entry.index];
+    result.links.push_back({number[a], number[b]});
+  }
+  return result;
+}
+
 }  // namespace
 
-LandmarkWatch::LandmarkWatch(Landmarks landmarks)
-    : points_(std::move(landmarks.points)), links_(std::move(landmarks.links)) {
+LandmarkWatch::LandmarkWatch(const Landmarks& landmarks) {
+  Landmarks sorted = along_curve(landmarks);
+  points_ = std::move(sorted.points);
+  links_ = std::move(sorted.links);
   for (const auto& [a, b] : links_) {
     const Vector3 link = points_[a] - points_[b];
     for (int axis = 0; axis < 3; ++axis) reach_[axis] = std::max(reach_[axis], std::abs(link[axis]));

@@ -20,7 +20,7 @@ class LandmarkWatch {
   };
 
   LandmarkWatch() = default;
-  explicit LandmarkWatch(Landmarks landmarks);
+  explicit LandmarkWatch(const Landmarks& landmarks);
 
   bool empty() const { return points_.empty(); }
   std::size_t size() const { return points_.size(); }

@@ -63,9 +63,9 @@ BrickField::BrickField(const Volume& volume, const LevelSet& level_set) : level_
   for (std::int32_t& entry : table_) {
     if (entry >= 0) entry = blocks++;
   }
-  blocks_.resize(static_cast<std::size_t>(blocks) * kBlockSize);
+  blocks_.grow_to(static_cast<std::size_t>(blocks) * kBlockSize);
   for_each_brick_in_parallel([&](const std::array<int, 3>& brick, std::int32_t& entry) {
-    if (entry >= 0) copy_brick(volume, level_set, brick, blocks_.data() + static_cast<std::size_t>(entry) * kBlockSize);
+    if (entry >= 0) copy_brick(volume, level_set, brick, &blocks_[static_cast<std::size_t>(entry) * kBlockSize]);
   });
 }
 

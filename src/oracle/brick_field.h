@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/page_array.h"
 #include "delvox/core/geometry.h"
 #include "delvox/volume/level_set.h"
 
@@ -33,7 +34,7 @@ class BrickField {
   BrickState state(const std::array<int, 3>& brick) const { return state_of(table_[brick_index(brick)]); }
   /// Samples of a mixed brick, i fastest.
   const float* block(const std::array<int, 3>& brick) const {
-    return blocks_.data() + static_cast<std::size_t>(table_[brick_index(brick)]) * kBlockSize;
+    return &blocks_[static_cast<std::size_t>(table_[brick_index(brick)]) * kBlockSize];
   }
 
   /// Calls visit(brick) for each mixed brick, first index fastest.
@@ -85,8 +86,8 @@ class BrickField {
   }
   /// The lowest of a cell's samples in its mixed brick.
   const float* lowest_sample(std::int32_t entry, const std::array<int, 3>& cell) const {
-    return blocks_.data() + static_cast<std::size_t>(entry) * kBlockSize +
-           ((cell[2] % kBrick) * kBlock + cell[1] % kBrick) * kBlock + cell[0] % kBrick;
+    return &blocks_[static_cast<std::size_t>(entry) * kBlockSize +
+                    static_cast<std::size_t>(((cell[2] % kBrick) * kBlock + cell[1] % kBrick) * kBlock + cell[0] % kBrick)];
   }
   void find_sides(const Volume& volume, const LevelSet& level_set);
   template <class Visit>
@@ -95,7 +96,7 @@ class BrickField {
   double level_;
   std::array<int, 3> size_, brick_counts_;
   std::vector<std::int32_t> table_;  // per brick: number of its block, or one of the constants
-  std::vector<float> blocks_;
+  PageArray<float> blocks_;
 };
 
 template <class Visit>

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/pair_geometry.h"
+
 namespace delvox {
 namespace {
 
@@ -292,20 +294,20 @@ double inside_fraction(const std::array<float, 8>& values, double level) {
                                           0.930568155797026287};
   static constexpr double kWeight[4] = {0.173927422568726929, 0.326072577431273071, 0.326072577431273071,
                                         0.173927422568726929};
-  double fraction = 0;
+  Pair fraction{};
   for (int k = 0; k < 4; ++k) {
     const double z = kAbscissa[k];
     double edge[4];
     for (int c = 0; c < 4; ++c) edge[c] = (1 - z) * values[c] + z * values[c + 4] - level;
-    for (int j = 0; j < 4; ++j) {
-      const double y = kAbscissa[j];
-      const double left = (1 - y) * edge[0] + y * edge[2], right = (1 - y) * edge[1] + y * edge[3];
-      const double high = std::max(left, right), low = std::min(left, right);
-      const double inside = low >= 0 ? 1 : high <= 0 ? 0 : high / (high - low);
-      fraction += kWeight[k] * kWeight[j] * inside;
+    for (int j = 0; j < 4; j += 2) {  // two points at a time, without branches
+      const Pair y{kAbscissa[j], kAbscissa[j + 1]};
+      const Pair left = (1 - y) * edge[0] + y * edge[2], right = (1 - y) * edge[1] + y * edge[3];
+      const Pair high = max(left, right), low = min(left, right), all{1, 1}, none{};
+      const Pair inside = low >= 0 ? all : high <= 0 ? none : high / (high - low);
+      fraction += kWeight[k] * (Pair{kWeight[j], kWeight[j + 1]} * inside);
     }
   }
-  return fraction;
+  return fraction[0] + fraction[1];
 }
 
 }  // namespace delvox

@@ -211,34 +211,57 @@ void GridBuilder::store(const Slab& slab) {
   }
 }
 
+namespace {
+
+/// The voxels from `low` on, `size` of them, of a leaf's samples or all of a tile's value, into an array of the extents
+/// `row` and `slice`, i fastest.
+void copy_part(const float* values, float tile, const std::array<int, 3>& low, const std::array<int, 3>& size,
+               std::size_t row, std::size_t slice, float* out) {
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      float* to = out + slice * k + row * j;
+      if (values == nullptr) {
+        std::fill_n(to, size[0], tile);
+        continue;
+      }
+      const float* from = values + leaf_offset(low[0], low[1] + j, low[2] + k);
+      if (size[0] == kLeaf) {
+        for (int i = 0; i < kLeaf; ++i) to[i] = from[leaf_offset(i, 0, 0)];
+      } else {
+        for (int i = 0; i < size[0]; ++i) to[i] = from[leaf_offset(i, 0, 0)];
+      }
+    }
+  }
+}
+
+}  // namespace
+
 void copy_voxels(const openvdb::FloatGrid& grid, const std::array<int, 3>& begin, const std::array<int, 3>& size,
                  float* out) {
   const std::array<int, 3> end{begin[0] + size[0], begin[1] + size[1], begin[2] + size[2]};
+  const std::size_t row = static_cast<std::size_t>(size[0]), slice = row * size[1];
   const int first_j = begin[1] / kLeaf, rows = (end[1] - 1) / kLeaf + 1 - first_j;
   const int first_k = begin[2] / kLeaf, layers = (end[2] - 1) / kLeaf + 1 - first_k;
   const auto copy_leaf_row = [&](int n) {
-    const auto accessor = grid.getConstAccessor();
-    const int leaf_j = (first_j + n % rows) * kLeaf, leaf_k = (first_k + n / rows) * kLeaf;
-    const int low_j = std::max(leaf_j, begin[1]), high_j = std::min(leaf_j + kLeaf, end[1]);
-    const int low_k = std::max(leaf_k, begin[2]), high_k = std::min(leaf_k + kLeaf, end[2]);
-    for (int leaf_i = begin[0] & ~(kLeaf - 1); leaf_i < end[0]; leaf_i += kLeaf) {
-      const int low_i = std::max(leaf_i, begin[0]), high_i = std::min(leaf_i + kLeaf, end[0]);
-      const Coord origin(leaf_i, leaf_j, leaf_k);
-      const Leaf* leaf = accessor.probeConstLeaf(origin);
-      const float* values = leaf != nullptr ? leaf->buffer().data() : nullptr;
-      const float tile = values == nullptr ? accessor.getValue(origin) : 0;
-      for (int k = low_k; k < high_k; ++k) {
-        for (int j = low_j; j < high_j; ++j) {
-          const std::size_t row = (static_cast<std::size_t>(k - begin[2]) * size[1] + (j - begin[1])) * size[0];
-          float* to = out + row + (low_i - begin[0]);
-          const float* from = values + leaf_offset(low_i - leaf_i, j - leaf_j, k - leaf_k);
-          for (int i = 0; i < high_i - low_i; ++i) to[i] = values == nullptr ? tile : from[leaf_offset(i, 0, 0)];
-        }
+    // The tree is not told of the accessor, which would take longer than copying a brick: nobody changes it meanwhile.
+    const auto accessor = grid.getConstUnsafeAccessor();
+    std::array<int, 3> leaf{begin[0] & ~(kLeaf - 1), (first_j + n % rows) * kLeaf, (first_k + n / rows) * kLeaf};
+    for (; leaf[0] < end[0]; leaf[0] += kLeaf) {
+      std::array<int, 3> low, extent;  // in the leaf
+      for (int axis = 0; axis < 3; ++axis) {
+        low[axis] = std::max(begin[axis] - leaf[axis], 0);
+        extent[axis] = std::min(end[axis] - leaf[axis], kLeaf) - low[axis];
       }
+      const Coord origin(leaf[0], leaf[1], leaf[2]);
+      const Leaf* found = accessor.probeConstLeaf(origin);
+      copy_part(found != nullptr ? found->buffer().data() : nullptr, found != nullptr ? 0 : accessor.getValue(origin), low,
+                extent, row, slice,
+                out + (slice * (leaf[2] + low[2] - begin[2]) + row * (leaf[1] + low[1] - begin[1]) +
+                       (leaf[0] + low[0] - begin[0])));
     }
   };
   constexpr std::size_t kWorthThreads = std::size_t{1} << 16;
-  if (static_cast<std::size_t>(size[0]) * size[1] * size[2] < kWorthThreads) {
+  if (slice * size[2] < kWorthThreads) {
     for (int n = 0; n < rows * layers; ++n) copy_leaf_row(n);
   } else {
     tbb::parallel_for(0, rows * layers, copy_leaf_row);

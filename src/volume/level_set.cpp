@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
 namespace delvox {
@@ -41,6 +42,12 @@ void copy_padded_block(const Volume& volume, const LevelSet& level_set, const st
   for (int axis = 0; axis < 3; ++axis) {
     low[axis] = std::clamp(begin[axis], 0, dims[axis] - 1);
     extent[axis] = std::clamp(begin[axis] + size[axis] - 1, 0, dims[axis] - 1) - low[axis] + 1;
+  }
+  if (extent == size) {  // all of it in the image, as most blocks are
+    volume.copy_block(begin, size, out);
+    const std::size_t count = static_cast<std::size_t>(size[0]) * size[1] * size[2];
+    if (level_set.sign < 0) std::transform(out, out + count, out, std::negate<>());
+    return;
   }
   std::vector<float> inner(static_cast<std::size_t>(extent[0]) * extent[1] * extent[2]);
   volume.copy_block(low, extent, inner.data());
