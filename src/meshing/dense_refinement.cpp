@@ -16,7 +16,7 @@ namespace delvox {
 
 void Refinement::start_with(const std::vector<Point3>& sample) {
   const auto go_on = [this] { return budget_.go_on(vertex_count(), 0); };
-  watch_ = LandmarkWatch(oracle_.landmarks(surface_.size, go_on));
+  watch_ = LandmarkWatch(along_curve(oracle_.landmarks(surface_.size, go_on)));
   delaunay_.insert_seeds(sample, go_on);
   enqueue_created();
 }

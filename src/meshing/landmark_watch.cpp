@@ -27,8 +27,8 @@ struct Keyed {
   std::uint32_t index;
 };
 
-/// Landmarks along a curve, each link where the first of its ends comes: whoever looks at one after the other finds
-/// cells that lie near each other in memory.
+}  // namespace
+
 Landmarks along_curve(const Landmarks& landmarks) {
   Box3 box;
   for (const Point3& p : landmarks.points) box.extend(p);
@@ -58,12 +58,8 @@ Landmarks along_curve(const Landmarks& landmarks) {
   return result;
 }
 
-}  // namespace
-
-LandmarkWatch::LandmarkWatch(const Landmarks& landmarks) {
-  Landmarks sorted = along_curve(landmarks);
-  points_ = std::move(sorted.points);
-  links_ = std::move(sorted.links);
+LandmarkWatch::LandmarkWatch(Landmarks landmarks)
+    : points_(std::move(landmarks.points)), links_(std::move(landmarks.links)) {
   for (const auto& [a, b] : links_) {
     const Vector3 link = points_[a] - points_[b];
     for (int axis = 0; axis < 3; ++axis) reach_[axis] = std::max(reach_[axis], std::abs(link[axis]));

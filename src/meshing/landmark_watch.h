@@ -10,6 +10,10 @@
 
 namespace delvox {
 
+/// The same landmarks in the order in which a curve through their box meets them, each link where the first of its ends
+/// comes: whoever looks at one after the other finds cells that lie near each other in memory.
+Landmarks along_curve(const Landmarks& landmarks);
+
 /// Which landmarks and links are to be looked at again: all at first, then those near places where the surface changed.
 class LandmarkWatch {
  public:
@@ -20,7 +24,7 @@ class LandmarkWatch {
   };
 
   LandmarkWatch() = default;
-  explicit LandmarkWatch(const Landmarks& landmarks);
+  explicit LandmarkWatch(Landmarks landmarks);
 
   bool empty() const { return points_.empty(); }
   std::size_t size() const { return points_.size(); }

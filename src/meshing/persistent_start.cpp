@@ -20,7 +20,7 @@ void Refinement::start() {
   const Seeds seeds = oracle_.seeds(leaves_dense_ ? scaled(surface_.size, kDenseSpread) : surface_.size, go_on);
   if (seeds.points.empty()) throw NothingToMesh("the surface is empty: no point was found on it; choose another isovalue, formula or box");
   report_.components = seeds.components;
-  watch_ = LandmarkWatch(oracle_.landmarks(surface_.size, go_on));
+  watch_ = LandmarkWatch(along_curve(oracle_.landmarks(surface_.size, go_on)));
   if (variant_.start == Start::kPersistent) return insert_persistent_triangles(seeds);
   if (features_) return insert_seeds_beside_features(seeds, go_on);
   delaunay_.insert_seeds(seeds.points, go_on);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 
 #include "support/random.h"
@@ -47,6 +48,34 @@ std::vector<std::uint32_t> numbers_of(const std::vector<LandmarkWatch::Due>& due
   std::vector<std::uint32_t> numbers;
   for (const LandmarkWatch::Due& d : due) numbers.push_back(d.landmark);
   return numbers;
+}
+
+/// Ends of the links, by their places.
+std::multiset<std::array<double, 6>> placed_links(const Landmarks& landmarks) {
+  std::multiset<std::array<double, 6>> links;
+  for (const auto& [a, b] : landmarks.links) {
+    const Point3 &p = landmarks.points[a], &q = landmarks.points[b];
+    links.insert({p.x, p.y, p.z, q.x, q.y, q.z});
+  }
+  return links;
+}
+
+double length_of_path(const std::vector<Point3>& points) {
+  double length = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) length += distance(points[i - 1], points[i]);
+  return length;
+}
+
+TEST(AlongCurve, IsAShortPathThroughTheSameLandmarksWithTheSameLinks) {
+  Random random(5);
+  const Landmarks landmarks = random_landmarks(2000, random), sorted = along_curve(landmarks);
+  EXPECT_EQ(placed_links(sorted), placed_links(landmarks));
+  ASSERT_EQ(sorted.points.size(), landmarks.points.size());
+  EXPECT_LT(length_of_path(sorted.points), 0.1 * length_of_path(landmarks.points));
+  for (std::size_t i = 1; i < sorted.links.size(); ++i) {
+    EXPECT_LE(std::min(sorted.links[i - 1][0], sorted.links[i - 1][1]), std::min(sorted.links[i][0], sorted.links[i][1]));
+  }
+  EXPECT_TRUE(along_curve({}).points.empty());
 }
 
 TEST(LandmarkWatch, AllAreDueAtFirstAndThenNone) {
