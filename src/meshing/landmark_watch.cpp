@@ -63,6 +63,7 @@ LandmarkWatch::LandmarkWatch(Landmarks landmarks)
   for (const auto& [a, b] : links_) {
     const Vector3 link = points_[a] - points_[b];
     for (int axis = 0; axis < 3; ++axis) reach_[axis] = std::max(reach_[axis], std::abs(link[axis]));
+    longest_link_ = std::max(longest_link_, norm(link));
   }
   std::vector<std::size_t> ends;
   for (const auto& [a, b] : links_) ends.insert(ends.end(), {a, b});

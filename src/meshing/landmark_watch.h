@@ -30,6 +30,7 @@ class LandmarkWatch {
   std::size_t size() const { return points_.size(); }
   const Point3& point(std::uint32_t landmark) const { return points_[landmark]; }
   const std::array<std::uint32_t, 2>& link(std::uint32_t link) const { return links_[link]; }
+  double longest_link() const { return longest_link_; }
 
   /// The surface has changed somewhere in the box, at `near`.
   void note_change(const Box3& box, VertexId near);
@@ -55,6 +56,7 @@ class LandmarkWatch {
   std::vector<Point3> points_;
   std::vector<std::array<std::uint32_t, 2>> links_;
   Vector3 reach_;  // what the longest link spans along each axis
+  double longest_link_ = 0;
   bool all_ = true;
   std::vector<Change> changes_;
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "core/parallel.h"
@@ -14,6 +15,22 @@ bool far_apart(std::span<const Point3> crossings, double bound) {
     if (squared_distance(crossings[i - 1], crossings[i]) > bound * bound) return true;
   }
   return false;
+}
+
+/// Cuts the dual edge from a to b down to what is within `reach` of the vertices that it is the dual edge of, `vertex`
+/// among them; false if that is nothing.
+bool clip_to_reach(Point3& a, Point3& b, const Point3& vertex, double reach) {
+  const Vector3 ab = b - a, from = a - vertex;
+  // |from + t ab|^2 = reach^2
+  const double squared = squared_norm(ab), half = dot(from, ab), rest = squared_norm(from) - reach * reach;
+  const double discriminant = half * half - squared * rest;
+  if (!(discriminant > 0)) return false;
+  const double root = std::sqrt(discriminant), enter = (-half - root) / squared, leave = (-half + root) / squared;
+  if (enter >= 1 || leave <= 0) return false;
+  const Point3 start = a;
+  if (leave < 1) b = start + leave * ab;
+  if (enter > 0) a = start + enter * ab;
+  return true;
 }
 
 /// So many insertions for each vertex of the surface, as it was when its topology was first looked at, may look closer.
@@ -84,13 +101,18 @@ std::optional<Point3> Refinement::crossing_of_excursion(FacetId facet, const Ora
                                       [this](VertexId v) { return delaunay_.kind(v) == VertexKind::kSurface; });
   if (!on_surface) return std::nullopt;
   const CellId neighbor = delaunay_.neighbors(facet.cell)[facet.index];
-  const Point3 &a = delaunay_.sphere(facet.cell).center, &b = delaunay_.sphere(neighbor).center;
+  const Circumsphere &at_a = delaunay_.sphere(facet.cell), &at_b = delaunay_.sphere(neighbor);
   const double shortest = shortest_excursion_ * surface_.size.minimum();
-  if (squared_distance(a, b) <= shortest * shortest) return std::nullopt;
+  if (squared_distance(at_a.center, at_b.center) <= shortest * shortest) return std::nullopt;
+  // Every voxel that the surface runs through has an edge that it crosses, and there are seeds within a size of that.
+  const double reach = 2 * watch_.longest_link() + 2 * surface_.size.maximum();
+  const Point3& corner = delaunay_.point(vertices[0]);
+  Point3 a = at_a.center, b = at_b.center;
+  const bool far = std::max(at_a.squared_radius, at_b.squared_radius) > reach * reach;
+  if (far && !clip_to_reach(a, b, corner, reach)) return std::nullopt;
   const auto crossings = oracle.intersect_all(a, b);
   if (crossings.size() < 2) return std::nullopt;
   if (!far_apart(crossings, shortest_excursion_ * surface_.size(crossings[0]))) return std::nullopt;
-  const Point3& corner = delaunay_.point(vertices[0]);
   return *std::max_element(crossings.begin(), crossings.end(), [&](const Point3& p, const Point3& q) {
     return squared_distance(p, corner) < squared_distance(q, corner);
   });

@@ -16,7 +16,7 @@ namespace delvox {
 /// sample (0,0,0) is the padding corner, voxel (i,j,k) of the image is sample (i+1,j+1,k+1).
 class BrickField {
  public:
-  static constexpr int kBrick = 8, kBlock = kBrick + 1, kBlockSize = kBlock * kBlock * kBlock;
+  static constexpr int kBrickBits = 3, kBrick = 1 << kBrickBits, kBlock = kBrick + 1, kBlockSize = kBlock * kBlock * kBlock;
 
   /// Steps along i, j, k inside a block.
   static constexpr std::array<int, 3> kBlockStride{1, kBlock, kBlock * kBlock};
@@ -30,8 +30,8 @@ class BrickField {
     return u.x >= 0 && u.x <= size_[0] - 1 && u.y >= 0 && u.y <= size_[1] - 1 && u.z >= 0 && u.z <= size_[2] - 1;
   }
 
-  enum class BrickState { kOutside, kInside, kMixed };
-  BrickState state(const std::array<int, 3>& brick) const { return state_of(table_[brick_index(brick)]); }
+  enum class State { kOutside, kInside, kMixed };
+  State state(const std::array<int, 3>& brick) const { return state_of(table_[brick_index(brick)]); }
   /// Samples of a mixed brick, i fastest.
   const float* block(const std::array<int, 3>& brick) const {
     return &blocks_[static_cast<std::size_t>(table_[brick_index(brick)]) * kBlockSize];
@@ -49,6 +49,8 @@ class BrickField {
     bool inside = false;
   };
   CellSamples cell_samples(const std::array<int, 3>& cell) const;
+  /// Whether all of a cell's samples are on one side, and so the cell, or it is mixed.
+  State cell_state(const std::array<int, 3>& cell) const;
   /// Clamped below the last sample, so that points on the upper faces have a cell too. pre: contains(u).
   std::array<int, 3> cell_of(const Point3& u) const {
     return {std::min(static_cast<int>(u.x), size_[0] - 2), std::min(static_cast<int>(u.y), size_[1] - 2),
@@ -73,21 +75,22 @@ class BrickField {
 
  private:
   static constexpr std::int32_t kOutsideBrick = -1, kInsideBrick = -2;
-  static BrickState state_of(std::int32_t entry) {
-    return entry == kOutsideBrick ? BrickState::kOutside
-           : entry == kInsideBrick ? BrickState::kInside
-                                   : BrickState::kMixed;
+  static State state_of(std::int32_t entry) {
+    return entry == kOutsideBrick ? State::kOutside
+           : entry == kInsideBrick ? State::kInside
+                                   : State::kMixed;
   }
   std::size_t brick_index(const std::array<int, 3>& b) const {
     return (static_cast<std::size_t>(b[2]) * brick_counts_[1] + b[1]) * brick_counts_[0] + b[0];
   }
   std::int32_t entry_of(const std::array<int, 3>& cell) const {
-    return table_[brick_index({cell[0] / kBrick, cell[1] / kBrick, cell[2] / kBrick})];
+    return table_[brick_index({cell[0] >> kBrickBits, cell[1] >> kBrickBits, cell[2] >> kBrickBits})];
   }
   /// The lowest of a cell's samples in its mixed brick.
   const float* lowest_sample(std::int32_t entry, const std::array<int, 3>& cell) const {
-    return &blocks_[static_cast<std::size_t>(entry) * kBlockSize +
-                    static_cast<std::size_t>(((cell[2] % kBrick) * kBlock + cell[1] % kBrick) * kBlock + cell[0] % kBrick)];
+    constexpr int kInBrick = kBrick - 1;
+    const int offset = ((cell[2] & kInBrick) * kBlock + (cell[1] & kInBrick)) * kBlock + (cell[0] & kInBrick);
+    return &blocks_[static_cast<std::size_t>(entry) * kBlockSize + static_cast<std::size_t>(offset)];
   }
   void find_sides(const Volume& volume, const LevelSet& level_set);
   template <class Visit>
@@ -105,7 +108,7 @@ void BrickField::for_each_mixed_brick(const Visit& visit) const {
   for (brick[2] = 0; brick[2] < brick_counts_[2]; ++brick[2]) {
     for (brick[1] = 0; brick[1] < brick_counts_[1]; ++brick[1]) {
       for (brick[0] = 0; brick[0] < brick_counts_[0]; ++brick[0]) {
-        if (state(brick) == BrickState::kMixed) visit(brick);
+        if (state(brick) == State::kMixed) visit(brick);
       }
     }
   }
@@ -118,6 +121,19 @@ double trilinear(const Samples& s, double x, double y, double z) {
   const double s01 = s[4] + x * (static_cast<double>(s[5]) - s[4]), s11 = s[6] + x * (static_cast<double>(s[7]) - s[6]);
   const double s0 = s00 + y * (s10 - s00), s1 = s01 + y * (s11 - s01);
   return s0 + z * (s1 - s0);
+}
+
+inline BrickField::State BrickField::cell_state(const std::array<int, 3>& cell) const {
+  const std::int32_t entry = entry_of(cell);
+  if (entry < 0) return state_of(entry);
+  constexpr int kRow = kBlock, kSlice = kBlock * kBlock;
+  const float* s = lowest_sample(entry, cell);
+  float least = s[0], most = s[0];
+  for (int corner : {1, kRow, kRow + 1, kSlice, kSlice + 1, kSlice + kRow, kSlice + kRow + 1}) {
+    least = std::min(least, s[corner]);
+    most = std::max(most, s[corner]);
+  }
+  return least > level_ ? State::kInside : most > level_ ? State::kMixed : State::kOutside;
 }
 
 inline BrickField::Sample BrickField::sample(const Point3& u) const {

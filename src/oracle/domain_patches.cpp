@@ -35,13 +35,13 @@ class PatchMaker {
  private:
   void visit_brick(const Index3& brick) const {
     switch (field_.state(brick)) {
-      case BrickField::BrickState::kOutside: return;
-      case BrickField::BrickState::kInside: {
+      case BrickField::State::kOutside: return;
+      case BrickField::State::kInside: {
         DomainPatch whole = box(brick, 0, kBrick);
         whole.inside_mm3 = kBrick * kBrick * kBrick * voxel_mm3_;
         return visit_(whole);
       }
-      case BrickField::BrickState::kMixed: break;
+      case BrickField::State::kMixed: break;
     }
     const BrickEdges edges(field_, brick);
     for (int octant = 0; octant < 8; ++octant) visit_octant(brick, octant, edges);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "delvox/core/errors.h"
 #include "delvox/volume/voxel_topology.h"
@@ -13,6 +14,38 @@
 
 namespace delvox {
 namespace {
+
+/// From cell to cell along a segment a + t ab of the grid: on to the next plane of samples along whichever axis it comes
+/// first. Without branches: which axis that is cannot be foreseen.
+class CellWalk {
+ public:
+  /// pre: a is not negative.
+  CellWalk(const Point3& a, const Vector3& ab) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double below = static_cast<int>(a[axis]);  // no floor(): that is a call
+      const bool moves = ab[axis] != 0;
+      per_plane_[axis] = moves ? 1 / ab[axis] : 0;
+      step_[axis] = ab[axis] > 0 ? 1 : -1;
+      ahead_[axis] = (ab[axis] > 0 ? below + 1 : a[axis] > below ? below : below - 1) - a[axis];
+      reached_[axis] = moves ? ahead_[axis] * per_plane_[axis] : kNever;
+    }
+  }
+
+  /// Where it leaves the cell in hand; 1 in the last.
+  double end_of_cell() const { return std::min({reached_[0], reached_[1], reached_[2], 1.0}); }
+  /// On from there.
+  void next_cell(double end) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const double passed = reached_[axis] <= end ? 1 : 0;
+      ahead_[axis] += passed * step_[axis];
+      reached_[axis] = per_plane_[axis] != 0 ? ahead_[axis] * per_plane_[axis] : kNever;
+    }
+  }
+
+ private:
+  static constexpr double kNever = 2;
+  double ahead_[3], per_plane_[3], step_[3], reached_[3];  // the next plane's distance, and when the segment is there
+};
 
 class IsosurfaceOracle final : public SmoothOracle {
  public:
@@ -86,8 +119,8 @@ class IsosurfaceOracle final : public SmoothOracle {
     const Point3 corner{static_cast<double>(cell[0]), static_cast<double>(cell[1]), static_cast<double>(cell[2])};
     return cubic_along(samples.value, field_->level(), p - corner, d);
   }
-  void crossings_in_cell(const Point3& a, const Vector3& ab, double t0, double t1, double& value_at_t0,
-                         std::vector<Point3>& out) const;
+  void crossings_in_cell(const std::array<int, 3>& cell, const Point3& a, const Vector3& ab, double t0, double t1,
+                         double& value_at_t0, std::vector<Point3>& out) const;
 
   Volume volume_;
   Isosurface surface_;
@@ -180,19 +213,10 @@ double IsosurfaceOracle::root_in_cell(const Point3& a, const Vector3& ab, double
 }
 
 /// The roots of a cubic lie between its critical points.
-void IsosurfaceOracle::crossings_in_cell(const Point3& a, const Vector3& ab, double t0, double t1, double& value_at_t0,
-                                         std::vector<Point3>& out) const {
-  const std::array<int, 3> cell = field_->cell_of(a + (0.5 * (t0 + t1)) * ab);
-  const BrickField::CellSamples samples = field_->cell_samples(cell);
-  const auto inside = [this](float sample) { return sample > field_->level(); };
-  const bool first_inside = samples.mixed_brick ? inside(samples.value[0]) : samples.inside;
-  const auto& s = samples.value;
-  if (!samples.mixed_brick || std::all_of(s.begin(), s.end(), [&](float v) { return inside(v) == first_inside; })) {
-    value_at_t0 = first_inside ? 1 : -1;
-    return;
-  }
+void IsosurfaceOracle::crossings_in_cell(const std::array<int, 3>& cell, const Point3& a, const Vector3& ab, double t0,
+                                         double t1, double& value_at_t0, std::vector<Point3>& out) const {
   const double dt = t1 - t0;
-  const Cubic cubic = cubic_in_cell(samples, cell, a + t0 * ab, dt * ab);
+  const Cubic cubic = cubic_in_cell(field_->cell_samples(cell), cell, a + t0 * ab, dt * ab);
   const auto& c = cubic.c;
   // Its Bezier ordinates enclose it: of one sign, they leave no root.
   const double b1 = c[0] + c[1] / 3, b2 = c[0] + (2 * c[1] + c[2]) / 3, b3 = cubic(1);
@@ -230,25 +254,23 @@ void IsosurfaceOracle::crossings_in_cell(const Point3& a, const Vector3& ab, dou
 std::vector<Point3> IsosurfaceOracle::intersect_all(const Point3& world_a, const Point3& world_b) const {
   std::vector<Point3> result;
   Point3 a = to_grid_(world_a), b = to_grid_(world_b);
-  if (!clip(a, b)) return result;
+  if (!(field_->contains(a) && field_->contains(b)) && !clip(a, b)) return result;
   const Vector3 ab = b - a;
-  // From cell to cell: along each axis the next plane of samples, and when the segment is there.
-  std::array<double, 3> plane, reached;
-  const auto reach = [&](int axis) { reached[axis] = ab[axis] == 0 ? 2 : (plane[axis] - a[axis]) / ab[axis]; };
-  for (int axis = 0; axis < 3; ++axis) {
-    const double below = static_cast<int>(a[axis]);  // no floor(): that is a call, and a is not negative
-    plane[axis] = ab[axis] > 0 ? below + 1 : a[axis] > below ? below : below - 1;
-    reach(axis);
-  }
-  double value = field_->value(a);
+  CellWalk walk(a, ab);
+  double value = std::numeric_limits<double>::quiet_NaN();  // nobody asks for it before a cell is crossed
   for (double t0 = 0; t0 < 1;) {
-    const double t1 = std::min({reached[0], reached[1], reached[2], 1.0});
-    if (t0 < t1) crossings_in_cell(a, ab, t0, t1, value, result);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (reached[axis] > t1) continue;
-      plane[axis] += ab[axis] > 0 ? 1 : -1;
-      reach(axis);
+    const double t1 = walk.end_of_cell();
+    if (t0 < t1) {
+      const std::array<int, 3> cell = field_->cell_of(a + (0.5 * (t0 + t1)) * ab);
+      const BrickField::State state = field_->cell_state(cell);
+      if (state == BrickField::State::kMixed) {
+        if (t0 == 0) value = field_->value(a);
+        crossings_in_cell(cell, a, ab, t0, t1, value, result);
+      } else {
+        value = state == BrickField::State::kInside ? 1 : -1;
+      }
     }
+    walk.next_cell(t1);
     t0 = t1;
   }
   return result;

@@ -134,11 +134,11 @@ TEST(BrickField, PureBricksAreThoseWithoutTheSurface) {
           ++all;
           inside += naive.sample(at[0], at[1], at[2]) > level_set.level;
         }
-        const auto expected = inside == 0     ? BrickField::BrickState::kOutside
-                              : inside == all ? BrickField::BrickState::kInside
-                                              : BrickField::BrickState::kMixed;
+        const auto expected = inside == 0     ? BrickField::State::kOutside
+                              : inside == all ? BrickField::State::kInside
+                                              : BrickField::State::kMixed;
         ASSERT_EQ(field.state({i, j, k}), expected);
-        pure += expected != BrickField::BrickState::kMixed;
+        pure += expected != BrickField::State::kMixed;
       }
     }
   }

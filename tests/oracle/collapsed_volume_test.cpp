@@ -16,7 +16,7 @@ void expect_same_field(const BrickField& a, const BrickField& b) {
     for (brick[1] = 0; brick[1] < a.brick_counts()[1]; ++brick[1]) {
       for (brick[0] = 0; brick[0] < a.brick_counts()[0]; ++brick[0]) {
         ASSERT_EQ(a.state(brick), b.state(brick));
-        if (a.state(brick) != BrickField::BrickState::kMixed) continue;
+        if (a.state(brick) != BrickField::State::kMixed) continue;
         ASSERT_TRUE(std::equal(a.block(brick), a.block(brick) + BrickField::kBlockSize, b.block(brick)));
       }
     }
