@@ -11,7 +11,7 @@
 namespace delvox {
 namespace {
 
-constexpr int kBits = 16;  // per axis
+constexpr int kBits = 12;  // per axis: of points nearer to each other than that, any may come first
 
 /// The low 21 bits of x, two free ones between each and the next.
 std::uint64_t spread(std::uint64_t x) {
