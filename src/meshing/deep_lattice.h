@@ -19,6 +19,10 @@ struct DeepLattice {
 
   /// Of a corner; kNone if it is a deep point.
   VertexId vertex(std::uint32_t corner) const { return corner < shell.size() ? shell[corner] : kNone; }
+
+  /// Deep points no farther from a place than `reach` and the distance of the nearest of them: from now on they are the
+  /// last of the shell, in the order returned, and wait for their vertices. Tets without deep corners are gone.
+  std::vector<Point3> take_near(const Point3& place, double reach);
 };
 
 }  // namespace delvox

@@ -16,7 +16,7 @@ namespace delvox {
 /// hundredth of its spacing. Its Delaunay tetrahedra have dihedral angles of 60 and 90 degrees, and no other lattice
 /// site comes near their circumspheres: most of a body needs neither refinement nor insertion. Not in the book.
 ///
-/// Sites near the surface (the shell) are to be inserted. Deep ones, at least four steps from the nearest site that is
+/// Sites near the surface (the shell) are to be inserted. Deep ones, at least three steps from the nearest site that is
 /// blocked or outside, can be written down: the tets with a deep corner are Delaunay whatever lies beyond the shell.
 class InteriorLattice {
  public:
@@ -47,9 +47,9 @@ class InteriorLattice {
   DeepLattice deep() const;
 
  private:
-  /// State of a site: steps from the nearest that is blocked or outside. With a shell of three, step 2 of DelTetSurf
-  /// can remove a site beside the surface without touching the tets that have deep neighbours.
-  enum Depth : std::uint8_t { kBlocked = 0, kDeep = 4 };
+  /// State of a site: steps from the nearest that is blocked or outside. With a shell of two, refinement beside the
+  /// surface hardly ever comes near the tets that have deep corners.
+  enum Depth : std::uint8_t { kBlocked = 0, kDeep = 3 };
   using Tet = std::array<Site, 4>;
 
   bool lay_out(const RestrictedDelaunay& delaunay);

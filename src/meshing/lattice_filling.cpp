@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "delvox/core/mesh.h"
 #include "meshing/interior_lattice.h"
@@ -19,7 +20,8 @@ void Refinement::fill_interior(const TetCriteria& criteria) {
   } while (lattice.adapt(delaunay_));
   deep_ = lattice.deep();
   report_.interior_insertions += deep_->points.size();
-  if (!set_deep_aside()) insert_deep();
+  deep_reach_ = 4 * criteria.cell_size.maximum();
+  if (!set_deep_aside()) insert_deep({}, std::numeric_limits<double>::infinity());
 }
 
 void Refinement::insert_shell(InteriorLattice& lattice) {
@@ -41,24 +43,37 @@ bool Refinement::set_deep_aside() {
   return delaunay_.set_aside(walls);
 }
 
-/// The deep sites become vertices like others: refinement has come near them.
-void Refinement::insert_deep() {
-  delaunay_.take_back();
-  const std::vector<Point3> points = std::move(deep_->points);
-  deep_.reset();
-  delaunay_.insert_interior(points, always_go_on);
-  note_new_facets();
-  enqueue_created();
+/// The deep sites around a place to which refinement has come become vertices like others. Setting the others aside
+/// takes a look at every cell: after some times the reach doubles, so that it seldom comes to many.
+void Refinement::insert_deep(const Point3& place) {
+  constexpr int kTimes = 4;
+  insert_deep(place, deep_reach_);
+  if (++deep_insertions_ % kTimes == 0) deep_reach_ *= 2;
 }
 
-/// As RestrictedDelaunay::evaluate, of the whole mesh. Cells known before, the hint too, are gone afterwards if it has
+void Refinement::insert_deep(const Point3& place, double reach) {
+  delaunay_.take_back();
+  const std::size_t first = deep_->shell.size();
+  const std::vector<VertexId> vertices = delaunay_.insert_interior(deep_->take_near(place, reach), always_go_on);
+  std::copy(vertices.begin(), vertices.end(), deep_->shell.begin() + static_cast<std::ptrdiff_t>(first));
+  if (deep_->points.empty()) deep_.reset();
+  const bool done = !deep_ || set_deep_aside();
+  note_new_facets();
+  std::vector<CellId> created = delaunay_.created();
+  std::erase_if(created, [this](CellId cell) { return delaunay_.placeholder(cell); });
+  enqueue(created, queues_);
+  if (!done) insert_deep(place, std::numeric_limits<double>::infinity());
+}
+
+/// As RestrictedDelaunay::evaluate, of the whole mesh. Cells known before, the hint too, may be gone afterwards if it has
 /// come near the deep sites.
 const Star& Refinement::evaluate(const Point3& p, CellId hint) {
-  const bool known = delaunay_.stamp(hint) != 0;
-  const Star& star = delaunay_.evaluate(p, known ? hint : delaunay_.some_cell());
-  if (!delaunay_.disturbs_aside(star.zone)) return star;
-  insert_deep();
-  return delaunay_.evaluate(p, delaunay_.some_cell());
+  while (true) {
+    const bool known = delaunay_.stamp(hint) != 0;
+    const Star& star = delaunay_.evaluate(p, known ? hint : delaunay_.some_cell());
+    if (!delaunay_.disturbs_aside(star.zone)) return star;
+    insert_deep(p);
+  }
 }
 
 }  // namespace delvox

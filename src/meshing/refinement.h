@@ -234,7 +234,8 @@ class Refinement {
   const Star& evaluate(const Point3& p, CellId hint);
   void insert_shell(InteriorLattice& lattice);
   bool set_deep_aside();
-  void insert_deep();
+  void insert_deep(const Point3& place);
+  void insert_deep(const Point3& place, double reach);
 
   // Tetrahedra (tet_refinement.cpp)
   bool bad(CellId cell) const;
@@ -255,6 +256,8 @@ class Refinement {
   RunBudget budget_;
   RestrictedDelaunay delaunay_;
   std::optional<DeepLattice> deep_;
+  int deep_insertions_ = 0;
+  double deep_reach_ = 0;  // of its points, how far around a place they are inserted when refinement comes there
 
   std::optional<FeatureSegments> features_;
   bool solid_ = false;

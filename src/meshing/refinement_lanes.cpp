@@ -256,7 +256,7 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
   Star& star = lane.lane.star;
   delaunay_.evaluate(ball->center, facet.cell, worker, star);
   if (delaunay_.disturbs_aside(star.zone)) {
-    if (may_change) insert_deep();
+    if (may_change) insert_deep(star.apex);
     if (alone) return may_change;
     lane.aside.facets.push_back(waiting);
     queues.pop_facet();

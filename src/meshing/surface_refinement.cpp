@@ -67,7 +67,7 @@ void Refinement::remove_interior_vertex_of(FacetId facet) {
 }
 
 void Refinement::remove_vertex(VertexId vertex) {
-  if (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep();
+  while (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep(delaunay_.point(vertex));
   const bool on_surface = delaunay_.kind(vertex) == VertexKind::kSurface;
   delaunay_.remove(vertex);
   note_new_facets();

@@ -65,7 +65,7 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   if (leaves_to_features(waiting, kind == VertexKind::kSurface ? ball.center : z, lane, queues, alone)) return;
   if (kind == VertexKind::kSurface) delaunay_.evaluate(ball.center, star.zone.front(), worker, star);
   if (delaunay_.disturbs_aside(star.zone)) {
-    if (alone) return insert_deep();
+    if (alone) return insert_deep(star.apex);
     lane.aside.tets.push_back(waiting);
     return queues.tets.pop_back();
   }

@@ -67,11 +67,27 @@ class InteriorLatticeTest : public testing::TestWithParam<const char*> {
   /// Positive tets of circumradii within the bound, each with a deep corner; no vertex and no deep point in their
   /// spheres.
   void expect_delaunay(const DeepLattice& deep) const;
+  /// Its tets have the volume of what their walls set aside.
+  void expect_to_fill_walls(const DeepLattice& deep);
 
   std::unique_ptr<SmoothOracle> oracle_ = test::voxel_phantom_oracle(GetParam(), test::cubic_image(32));
   std::vector<Point3> surface_points_;
   RestrictedDelaunay delaunay_{*oracle_};
 };
+
+void InteriorLatticeTest::expect_to_fill_walls(const DeepLattice& deep) {
+  ASSERT_TRUE(delaunay_.set_aside(walls_of(deep)));
+  double within_walls = 0, deep_volume = 0;
+  for_each_cell([&](CellId cell) {
+    if (!delaunay_.placeholder(cell)) return;
+    const auto& v = delaunay_.vertices(cell);
+    within_walls +=
+        volume({delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), delaunay_.point(v[3])});
+  });
+  for (const auto& tet : deep.tets) deep_volume += volume(points_of(deep, tet));
+  EXPECT_GT(deep_volume, 0);
+  EXPECT_NEAR(within_walls / deep_volume, 1, 1e-12);
+}
 
 void InteriorLatticeTest::expect_delaunay(const DeepLattice& deep) const {
   std::vector<Point3> all = deep.points;
@@ -136,17 +152,35 @@ TEST_P(InteriorLatticeTest, DeepTetsAreDelaunayAndFillWhatTheirWallsEnclose) {
   expect_delaunay(deep);
   for (Label label : deep.labels) EXPECT_EQ(label, 1);
 
-  ASSERT_TRUE(delaunay_.set_aside(walls_of(deep)));
-  double within_walls = 0, deep_volume = 0;
-  for_each_cell([&](CellId cell) {
-    if (!delaunay_.placeholder(cell)) return;
-    const auto& v = delaunay_.vertices(cell);
-    within_walls +=
-        volume({delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), delaunay_.point(v[3])});
-  });
-  for (const auto& tet : deep.tets) deep_volume += volume(points_of(deep, tet));
-  EXPECT_GT(deep_volume, 0);
-  EXPECT_NEAR(within_walls / deep_volume, 1, 1e-12);
+  expect_to_fill_walls(deep);
+}
+
+// Piece by piece, until nothing deep is left.
+TEST_P(InteriorLatticeTest, DeepPointsTakenBecomeShellAndTheRestStaysDelaunayAndFillsItsWalls) {
+  InteriorLattice lattice = this->lattice();
+  lattice.find_depths();
+  lattice.insert_shell(delaunay_, always_go_on);
+  DeepLattice deep = lattice.deep();
+  const std::size_t all = deep.points.size() + deep.shell.size();
+  const Point3 place = deep.points[deep.points.size() / 3];
+  for (double reach = 0; !deep.points.empty(); reach += kCellSize) {
+    const std::vector<Point3> before = deep.points;
+    const std::vector<Point3> taken = deep.take_near(place, reach);
+    ASSERT_FALSE(taken.empty());
+    ASSERT_EQ(deep.points.size() + deep.shell.size(), all);
+    EXPECT_EQ(deep.labels.size(), deep.points.size());
+    double farthest_taken = 0, nearest_left = Box3::kInfinity;
+    for (const Point3& p : taken) farthest_taken = std::max(farthest_taken, distance(p, place));
+    for (const Point3& p : deep.points) nearest_left = std::min(nearest_left, distance(p, place));
+    EXPECT_LT(farthest_taken, nearest_left);
+    const std::vector<VertexId> vertices = delaunay_.insert_interior(taken, always_go_on);
+    std::copy(vertices.begin(), vertices.end(), deep.shell.end() - static_cast<std::ptrdiff_t>(taken.size()));
+    if (deep.points.empty()) break;
+    expect_delaunay(deep);
+    expect_to_fill_walls(deep);
+    delaunay_.take_back();
+  }
+  EXPECT_TRUE(deep.tets.empty());
 }
 
 // As step 2 of DelTetSurf does with a site that disturbs the surface.

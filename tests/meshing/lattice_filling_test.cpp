@@ -102,6 +102,12 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
     return {};
   }
 
+  Point3 farthest_from(const Point3& place) const {
+    return *std::max_element(deep_points_.begin(), deep_points_.end(), [&](const Point3& a, const Point3& b) {
+      return distance(a, place) < distance(b, place);
+    });
+  }
+
   std::size_t points_kept(const TetMesh& mesh) const {
     std::vector<std::array<double, 3>> present;
     for (const Point3& p : mesh.points) present.push_back({p.x, p.y, p.z});
@@ -130,43 +136,52 @@ TEST_P(LatticeFilling, WhatIsOnlyWrittenDownMakesOneDelaunayMeshWithTheRest) {
   expect_promises(mesh, lattice_.cell_size);
 }
 
-// Cells in one half must be half as large: refinement crosses the shell, the deep sites are inserted after all, and the
-// bound holds among them too.
+// Cells in one half must be half as large: refinement crosses the shell there, again and again, the deep sites are
+// inserted after all, and the bound holds among them too.
 TEST_P(LatticeFilling, RefinementThatComesNearTheDeepPartInsertsItAndGoesOnThere) {
   const TetCriteria finer{2,
                           SizeField([](const Point3& p) { return p.x > 0.3 ? kSize / 2 : kSize; }, kSize / 2, kSize)};
   const TetMesh mesh = finish(finer);
-  EXPECT_FALSE(refinement_->deep().has_value());
+  if (refinement_->deep()) {
+    for (const Point3& p : refinement_->deep()->points) EXPECT_LT(p.x, 0.3 + kSize);
+  }
   EXPECT_EQ(points_kept(mesh), deep_points_.size()) << "sites that became vertices";
   expect_promises(mesh, finer.cell_size);
 }
 
-// One bad tet at the wall is enough, and what it takes is no reason to refine the rest.
-TEST_P(LatticeFilling, ASingleInsertionAtTheWallInsertsTheDeepPartUnchanged) {
+// One bad tet at the wall is enough, and what it takes is no reason to refine the rest, or to insert what is far away.
+TEST_P(LatticeFilling, ASingleInsertionAtTheWallInsertsTheDeepPartAroundItUnchanged) {
   const Circumsphere sphere = sphere_at_the_wall();
   const double smaller = 0.99 * std::sqrt(sphere.squared_radius);
   const auto field = [=](const Point3& p) { return distance(p, sphere.center) < 1e-6 ? smaller : kSize; };
   const TetCriteria finer{2, SizeField(field, smaller, kSize)};
   const TetMesh mesh = finish(finer);
-  EXPECT_FALSE(refinement_->deep().has_value());
+  const double farthest = distance(farthest_from(sphere.center), sphere.center);
+  ASSERT_GT(farthest, 6 * kSize);
+  ASSERT_TRUE(refinement_->deep().has_value());
+  EXPECT_LT(refinement_->deep()->points.size(), deep_points_.size());
+  EXPECT_GT(refinement_->deep()->points.size(), 0u);
+  for (const Point3& p : refinement_->deep()->points) EXPECT_GT(distance(p, sphere.center), 3 * kSize);
   EXPECT_EQ(points_kept(mesh), deep_points_.size());
   expect_promises(mesh, finer.cell_size);
 }
 
-// What was right as long as it was only written down is judged like the rest once it is inserted: here a place that no
-// refinement comes near.
-TEST_P(LatticeFilling, TheBoundHoldsDeepInsideOnceThatIsInserted) {
+// What was right as long as it was only written down is judged like the rest once it is inserted: here among deep points
+// that the first of them comes with.
+TEST_P(LatticeFilling, TheBoundHoldsAmongDeepPointsOnceTheyAreInserted) {
   const Circumsphere sphere = sphere_at_the_wall();
-  const Point3 deepest = *std::max_element(
+  const Point3 nearest = *std::min_element(
       deep_points_.begin(), deep_points_.end(),
       [&](const Point3& a, const Point3& b) { return distance(a, sphere.center) < distance(b, sphere.center); });
-  ASSERT_GT(distance(deepest, sphere.center), 3 * kSize);
+  const Point3 deeper = *std::min_element(deep_points_.begin(), deep_points_.end(), [&](const Point3& a, const Point3& b) {
+    const auto off = [&](const Point3& p) { return std::abs(distance(p, nearest) - 2 * kSize); };
+    return off(a) < off(b);
+  });
   const auto field = [=](const Point3& p) {
-    return distance(p, sphere.center) < 1e-6 || distance(p, deepest) < kSize ? kSize / 2 : kSize;
+    return distance(p, sphere.center) < 1e-6 || distance(p, deeper) < kSize ? kSize / 2 : kSize;
   };
   const TetCriteria finer{2, SizeField(field, kSize / 2, kSize)};
   const TetMesh mesh = finish(finer);
-  EXPECT_FALSE(refinement_->deep().has_value());
   expect_promises(mesh, finer.cell_size);
 }
 
