@@ -53,6 +53,22 @@ TEST(CheckMesh, CubeOfTetsHoldsEverything) {
   EXPECT_NEAR(report.find("radius-edge")->measured, std::sqrt(3.0) / 2, 1e-12);
 }
 
+// Tets are measured two at a time: an odd one, too, and each once.
+TEST(CheckMesh, MeasuresEveryTetOnce) {
+  const TetMesh mesh = cube_mesh(3, 0.5);
+  for (std::size_t tets : {1, 2, 3, 161}) {
+    TetMesh part = mesh;
+    part.tets.resize(tets);
+    part.regions.clear();
+    part.boundary.clear();
+    part.on_surface.clear();
+    const MeshStatistics statistics = check_mesh(part).statistics;
+    EXPECT_EQ(statistics.dihedral_degrees.count, 6 * tets);
+    EXPECT_EQ(statistics.radius_edge.count, tets);
+    EXPECT_NEAR(statistics.volume_mm3, static_cast<double>(tets) * 1.5 * 1.5 * 1.5 / 162, 1e-12);
+  }
+}
+
 TEST(CheckMesh, IcosphereHoldsEverything) {
   const CheckReport report = check_mesh(icosphere(3, 10, {1, 2, 3}));
   EXPECT_TRUE(report.all_hold()) << to_text(report);

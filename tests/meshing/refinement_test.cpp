@@ -65,5 +65,32 @@ TEST_P(KeptBalls, AreThoseOfTheFacetsThatHaveThem) {
   EXPECT_EQ(strays, 0u);
 }
 
+// By which Voronoi edges are cut before anybody looks for excursions on them: with the seeds alone, before refinement,
+// wherever a Voronoi edge crosses the surface, its vertices are near.
+TEST(SeedsOfFineMeshes, LieWithinTwoVoxelsAndTwoSizesOfWhereVoronoiEdgesCrossTheSurface) {
+  for (const char* kind : {"random", "noisy-sphere", "gyroid"}) {
+    for (const double size : {0.25, 0.55}) {
+      SCOPED_TRACE(std::string(kind) + ", " + std::to_string(size));
+      const auto oracle = test::voxel_phantom_oracle(kind, test::with_noise(test::cubic_image(14), 1));
+      ASSERT_FALSE(oracle->landmarks(size, always_go_on).points.empty());
+      RestrictedDelaunay delaunay(*oracle);
+      delaunay.insert_seeds(oracle->seeds(size, always_go_on).points);
+      std::size_t crossings = 0, far = 0;
+      for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
+        for (int i = 0; i < 4 && delaunay.stamp(cell) != 0; ++i) {
+          if (delaunay.neighbors(cell)[i] < cell || !delaunay.proper({cell, i})) continue;
+          const Point3& corner = delaunay.point(delaunay.vertices(FacetId{cell, i})[0]);
+          for (const Point3& p : delaunay.dual_crossings({cell, i}, *oracle)) {
+            ++crossings;
+            far += distance(p, corner) > 2 + 2 * size;
+          }
+        }
+      }
+      EXPECT_GT(crossings, 1000u);
+      EXPECT_EQ(far, 0u);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace delvox

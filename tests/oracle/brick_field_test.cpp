@@ -80,6 +80,14 @@ void expect_agreement(const Volume& volume, const Isosurface& surface) {
     if (std::abs(expected) > 1e-14 * scale) {
       ASSERT_EQ(field.inside(u), expected > 0);
     }
+    const std::array<int, 3> cell = field.cell_of(u);
+    int inside = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      inside += naive.sample(cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)) > field.level();
+    }
+    ASSERT_EQ(field.cell_state(cell), inside == 0   ? BrickField::State::kOutside
+                                      : inside == 8 ? BrickField::State::kInside
+                                                    : BrickField::State::kMixed);
   }
 }
 
