@@ -121,8 +121,7 @@ std::optional<Point3> Refinement::crossing_of_excursion(FacetId facet, const Ora
 /// With all that is looked at in order: if the oracle counts another topology, looks at shorter excursions too, as long
 /// as that takes few vertices.
 bool Refinement::look_closer() {
-  // Among interior vertices the shortest take many insertions and find little.
-  const double shortest_of_all = tet_criteria_ != nullptr ? 0.02 : 0.001;
+  constexpr double kShortestOfAll = 0.001;
   if (!surface_.size.constant()) return false;  // where the mesh is coarse it may differ
   if (!looks_closer_) {
     looks_closer_ = true;
@@ -130,7 +129,7 @@ bool Refinement::look_closer() {
     vertices_at_first_look_ = vertex_count();
   }
   if (!expected_topology_ || topology() == *expected_topology_) return false;
-  while (shortest_excursion_ > shortest_of_all) {
+  while (shortest_excursion_ > kShortestOfAll) {
     shortest_excursion_ /= 2;
     if (repair_voronoi_edges(true)) return true;
   }
