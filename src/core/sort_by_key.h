@@ -8,6 +8,12 @@
 
 namespace delvox {
 
+/// Stands for an item that is held elsewhere.
+struct KeyedIndex {
+  std::uint64_t key;
+  std::uint32_t index;
+};
+
 /// Sorts items by their 64-bit `key`, those of equal keys staying in the order in which they are: by counting, eleven
 /// bits after eleven, which takes a fraction of the time of comparing.
 template <class Item>

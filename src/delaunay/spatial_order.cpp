@@ -61,11 +61,7 @@ SpatialOrder spatial_order(const std::vector<Point3>& points) {
   Box3 box;
   for (const Point3& p : points) box.extend(p);
   const int last_round = std::bit_width(points.size() / 64) / 2;
-  struct Entry {
-    std::uint64_t key;
-    std::uint32_t index;
-  };
-  std::vector<Entry> entries(points.size());
+  std::vector<KeyedIndex> entries(points.size());
   for_each_chunk(points.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       entries[i] = {round_of(points[i], last_round) << 3 * kBits | place_along_curve(points[i], box),

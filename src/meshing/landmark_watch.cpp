@@ -21,18 +21,12 @@ void group_by(const std::vector<std::size_t>& keys, std::size_t groups, std::vec
   for (std::uint32_t i = 0; i < keys.size(); ++i) members[next[keys[i]]++] = i;
 }
 
-/// An item of a list to be sorted.
-struct Keyed {
-  std::uint64_t key;
-  std::uint32_t index;
-};
-
 }  // namespace
 
 Landmarks along_curve(const Landmarks& landmarks) {
   Box3 box;
   for (const Point3& p : landmarks.points) box.extend(p);
-  std::vector<Keyed> entries;
+  std::vector<KeyedIndex> entries;
   entries.reserve(landmarks.points.size());
   for (const Point3& p : landmarks.points) {
     entries.push_back({place_along_curve(p, box), static_cast<std::uint32_t>(entries.size())});
@@ -41,7 +35,7 @@ Landmarks along_curve(const Landmarks& landmarks) {
   Landmarks result;
   std::vector<std::uint32_t> number(entries.size());
   result.points.reserve(entries.size());
-  for (const Keyed& entry : entries) {
+  for (const KeyedIndex& entry : entries) {
     number[entry.index] = static_cast<std::uint32_t>(result.points.size());
     result.points.push_back(landmarks.points[entry.index]);
   }
@@ -51,7 +45,7 @@ Landmarks along_curve(const Landmarks& landmarks) {
   }
   sort_by_key(entries);
   result.links.reserve(entries.size());
-  for (const Keyed& entry : entries) {
+  for (const KeyedIndex& entry : entries) {
     const auto& [a, b] = landmarks.links[entry.index];
     result.links.push_back({number[a], number[b]});
   }

@@ -67,12 +67,8 @@ void Refinement::refine() {
 template <class Waiting, class CellOf>
 void Refinement::sort_by_place(std::vector<Waiting>& entries, std::size_t first, const CellOf& cell_of) const {
   constexpr std::size_t kChunk = 4096;
-  struct Keyed {
-    std::uint64_t key;
-    std::uint32_t position;
-  };
   const Box3 box = oracle_.bounds();
-  std::vector<Keyed> keys(entries.size() - first);
+  std::vector<KeyedIndex> keys(entries.size() - first);
   for_each_chunk(keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const VertexId corner = delaunay_.vertices(cell_of(entries[first + i]))[0];
@@ -81,7 +77,7 @@ void Refinement::sort_by_place(std::vector<Waiting>& entries, std::size_t first,
   });
   sort_by_key(keys);
   std::vector<Waiting> sorted(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(first));
-  for (const Keyed& key : keys) sorted.push_back(entries[first + key.position]);
+  for (const KeyedIndex& key : keys) sorted.push_back(entries[first + key.index]);
   entries = std::move(sorted);
 }
 
