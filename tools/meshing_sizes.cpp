@@ -17,7 +17,7 @@ MeshingSizes decide_sizes(const MeshingOptions& options, const MeshingDomain& do
     sizes.request.emplace(options.size, frame);
     const std::optional<SizeField> field = sizes.request->field();
     sizes.size = field ? *field : SizeField(domain.default_size());  // which takes a look at every sample
-    sizes.sentence = "size " + options.size + (sizes.request->field() && sizes.size.constant() ? " mm" : "");
+    sizes.sentence = "size " + options.size + (field && sizes.size.constant() ? " mm" : "");
   } else if (options.algorithm == "delsurf1") {
     sizes.request.emplace("lfs", frame);
     sizes.sentence = "size lfs";

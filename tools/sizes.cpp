@@ -11,6 +11,7 @@
 #include "delvox/core/errors.h"
 #include "delvox/volume/read_volume.h"
 #include "format.h"
+#include "volume/block_sides.h"
 
 namespace delvox::tools {
 namespace {
@@ -93,43 +94,67 @@ struct Inside {
 struct InsideSamples {
   Box3 indices;
   std::size_t count = 0;
+
+  void add(const InsideSamples& more) {
+    if (more.count == 0) return;
+    indices.extend(more.indices.min);
+    indices.extend(more.indices.max);
+    count += more.count;
+  }
 };
 
-InsideSamples inside_samples(const Volume& volume, const LevelSet& level_set, int first_slice, int end_slice) {
-  const int columns = volume.dims()[0], rows = volume.dims()[1];
-  std::vector<float> samples(static_cast<std::size_t>(columns) * rows * (end_slice - first_slice));
-  volume.copy_block({0, 0, first_slice}, {columns, rows, end_slice - first_slice}, samples.data());
+// Of a block whose samples lie on both sides, from `low` on.
+InsideSamples inside_samples(const Volume& volume, const LevelSet& level_set, const std::array<int, 3>& low,
+                             const std::array<int, 3>& size) {
+  std::array<float, BlockSides::kBlock * BlockSides::kBlock * BlockSides::kBlock> samples;
+  volume.copy_block(low, size, samples.data());
   InsideSamples result;
-  const auto inside = [&](float sample) { return level_set.inside(level_set.sign * sample); };
-  const float* row = samples.data();
-  for (int k = first_slice; k < end_slice; ++k) {
-    for (int j = 0; j < rows; ++j, row += columns) {
-      const std::ptrdiff_t count = std::count_if(row, row + columns, inside);
-      if (count == 0) continue;
-      result.count += static_cast<std::size_t>(count);
-      const std::ptrdiff_t first = std::find_if(row, row + columns, inside) - row;
-      std::ptrdiff_t last = columns - 1;
-      while (!inside(row[last])) --last;
-      for (std::ptrdiff_t i : {first, last}) {
-        result.indices.extend({static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)});
+  const float* sample = samples.data();
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      for (int i = 0; i < size[0]; ++i) {
+        if (!level_set.inside(level_set.sign * *sample++)) continue;
+        result.indices.extend({double(low[0] + i), double(low[1] + j), double(low[2] + k)});
+        ++result.count;
       }
     }
   }
   return result;
 }
 
+// Of a row of blocks along i.
+InsideSamples inside_samples(const Volume& volume, const LevelSet& level_set, const BlockSides& blocks, int j, int k) {
+  InsideSamples result;
+  for (int i = 0; i < blocks.counts[0]; ++i) {
+    std::array<int, 3> low{i * BlockSides::kBlock, j * BlockSides::kBlock, k * BlockSides::kBlock}, size;
+    for (int axis = 0; axis < 3; ++axis) size[axis] = std::min(BlockSides::kBlock, volume.dims()[axis] - low[axis]);
+    const Side side = blocks.at(i, j, k);
+    if (side == Side::kBoth) {
+      result.add(inside_samples(volume, level_set, low, size));
+    } else if (side == Side::kInside) {
+      const Point3 first{double(low[0]), double(low[1]), double(low[2])};
+      const Vector3 steps{size[0] - 1.0, size[1] - 1.0, size[2] - 1.0};
+      result.add({{first, first + steps}, static_cast<std::size_t>(size[0]) * size[1] * size[2]});
+    }
+  }
+  return result;
+}
+
 Inside measure_inside(const Volume& volume, const Isosurface& surface) {
-  constexpr std::size_t kSlices = 8;  // as the volume holds them together
+  constexpr std::size_t kRows = 16;
   const LevelSet level_set(surface);
+  const BlockSides blocks = block_sides(volume, level_set);
+  const int rows = blocks.counts[1];
   InsideSamples all;
-  for (const InsideSamples& part :
-       map_chunks(static_cast<std::size_t>(volume.dims()[2]), kSlices, [&](std::size_t begin, std::size_t end) {
-         return inside_samples(volume, level_set, static_cast<int>(begin), static_cast<int>(end));
-       })) {
-    if (part.count == 0) continue;
-    all.indices.extend(part.indices.min);
-    all.indices.extend(part.indices.max);
-    all.count += part.count;
+  for (const InsideSamples& part : map_chunks(
+           static_cast<std::size_t>(rows) * blocks.counts[2], kRows, [&](std::size_t begin, std::size_t end) {
+             InsideSamples found;
+             for (auto row = static_cast<int>(begin); row < static_cast<int>(end); ++row) {
+               found.add(inside_samples(volume, level_set, blocks, row % rows, row / rows));
+             }
+             return found;
+           })) {
+    all.add(part);
   }
   if (all.count == 0) throw NothingToMesh("no sample of the volume is inside; choose another --iso, see delvox info");
   const Vector3 spacing = volume.header().spacing(), steps = all.indices.max - all.indices.min;

@@ -37,7 +37,7 @@ class PointCubes {
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
           const std::uint64_t key = key_of({x, y, z});
           for (std::size_t i = first_.find(key); i < in_order_.size() && in_order_[i].key == key; ++i) {
-            const std::uint32_t p = in_order_[i].point;
+            const std::uint32_t p = in_order_[i].index;
             if (squared_distance(points_[p], center) < squared_radius) visit(p);
           }
         }
@@ -47,10 +47,6 @@ class PointCubes {
 
  private:
   using Cube = std::array<std::int64_t, 3>;
-  struct Entry {
-    std::uint64_t key;
-    std::uint32_t point;
-  };
 
   /// Those beyond the box of the points are empty.
   Cube cube_of(const Point3& p) const {
@@ -71,7 +67,7 @@ class PointCubes {
   const std::vector<Point3>& points_;
   double width_;
   Box3 box_;
-  std::vector<Entry> in_order_;
+  std::vector<KeyedIndex> in_order_;
   FlatHash first_;  // of each cube, in in_order_
 };
 

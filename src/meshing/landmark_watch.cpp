@@ -64,6 +64,7 @@ LandmarkWatch::LandmarkWatch(Landmarks landmarks)
   group_by(ends, points_.size(), first_link_, links_of_);
   for (std::uint32_t& end : links_of_) end /= 2;
   waits_.assign(links_.size(), false);
+  is_due_.assign(points_.size(), false);
   if (!points_.empty()) sort_into_cubes();
 }
 
@@ -108,16 +109,18 @@ std::vector<LandmarkWatch::Due> LandmarkWatch::take_due() {
       for (cube[1] = low[1]; cube[1] <= high[1]; ++cube[1]) {
         for (cube[0] = low[0]; cube[0] <= high[0]; ++cube[0]) {
           for (std::uint32_t i = first_in_cube_[cube_index(cube)]; i < first_in_cube_[cube_index(cube) + 1]; ++i) {
-            if (box.contains(points_[in_cubes_[i]])) due.push_back({in_cubes_[i], change.near});
+            const std::uint32_t landmark = in_cubes_[i];
+            if (is_due_[landmark] || !box.contains(points_[landmark])) continue;
+            is_due_[landmark] = true;
+            due.push_back({landmark, change.near});
           }
         }
       }
     }
   }
   changes_.clear();
-  const auto same = [](const Due& a, const Due& b) { return a.landmark == b.landmark; };
-  std::stable_sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.landmark < b.landmark; });
-  due.erase(std::unique(due.begin(), due.end(), same), due.end());
+  for (const Due& d : due) is_due_[d.landmark] = false;
+  std::sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.landmark < b.landmark; });
   return due;
 }
 

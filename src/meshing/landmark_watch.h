@@ -66,7 +66,7 @@ class LandmarkWatch {
   std::vector<std::uint32_t> first_in_cube_, in_cubes_;  // landmarks, cube after cube
   std::vector<std::uint32_t> first_link_, links_of_;     // links, landmark after landmark
   std::vector<std::uint32_t> waiting_links_;
-  std::vector<bool> waits_;
+  std::vector<bool> waits_, is_due_;
 };
 
 }  // namespace delvox

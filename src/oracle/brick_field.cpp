@@ -97,10 +97,7 @@ void BrickField::find_sides(const Volume& volume, const LevelSet& level_set) {
 BrickField::CellSamples BrickField::cell_samples(const std::array<int, 3>& cell) const {
   CellSamples result;
   const std::int32_t entry = entry_of(cell);
-  if (entry < 0) {
-    result.inside = entry == kInsideBrick;
-    return result;
-  }
+  if (entry < 0) return result;
   result.mixed_brick = true;
   const float* s = lowest_sample(entry, cell);
   constexpr int kRow = kBlock, kSlice = kBlock * kBlock;

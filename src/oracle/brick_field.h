@@ -41,12 +41,11 @@ class BrickField {
   template <class Visit>
   void for_each_mixed_brick(const Visit& visit) const;
 
-  /// The eight samples around a cell, bit 0 of the index along x, bit 1 along y, bit 2 along z; false if the cell lies
-  /// in a pure brick (then `inside` tells which).
+  /// The eight samples around a cell, bit 0 of the index along x, bit 1 along y, bit 2 along z, if it lies in a mixed
+  /// brick.
   struct CellSamples {
     std::array<float, 8> value;
     bool mixed_brick = false;
-    bool inside = false;
   };
   CellSamples cell_samples(const std::array<int, 3>& cell) const;
   /// Whether all of a cell's samples are on one side, and so the cell, or it is mixed.

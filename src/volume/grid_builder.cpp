@@ -42,6 +42,27 @@ void activate(Leaf& leaf) {
   leaf.setValueMask(mask);
 }
 
+/// The voxels from `low` on, `size` of them, of a leaf's samples or all of a tile's value, into an array of the extents
+/// `row` and `slice`, i fastest.
+void copy_part(const float* values, float tile, const std::array<int, 3>& low, const std::array<int, 3>& size,
+               std::size_t row, std::size_t slice, float* out) {
+  for (int k = 0; k < size[2]; ++k) {
+    for (int j = 0; j < size[1]; ++j) {
+      float* to = out + slice * k + row * j;
+      if (values == nullptr) {
+        std::fill_n(to, size[0], tile);
+        continue;
+      }
+      const float* from = values + leaf_offset(low[0], low[1] + j, low[2] + k);
+      if (size[0] == kLeaf) {  // as most are: unrolled
+        for (int i = 0; i < kLeaf; ++i) to[i] = from[leaf_offset(i, 0, 0)];
+      } else {
+        for (int i = 0; i < size[0]; ++i) to[i] = from[leaf_offset(i, 0, 0)];
+      }
+    }
+  }
+}
+
 }  // namespace
 
 struct GridBuilder::Stored {
@@ -210,31 +231,6 @@ void GridBuilder::store(const Slab& slab) {
     }
   }
 }
-
-namespace {
-
-/// The voxels from `low` on, `size` of them, of a leaf's samples or all of a tile's value, into an array of the extents
-/// `row` and `slice`, i fastest.
-void copy_part(const float* values, float tile, const std::array<int, 3>& low, const std::array<int, 3>& size,
-               std::size_t row, std::size_t slice, float* out) {
-  for (int k = 0; k < size[2]; ++k) {
-    for (int j = 0; j < size[1]; ++j) {
-      float* to = out + slice * k + row * j;
-      if (values == nullptr) {
-        std::fill_n(to, size[0], tile);
-        continue;
-      }
-      const float* from = values + leaf_offset(low[0], low[1] + j, low[2] + k);
-      if (size[0] == kLeaf) {
-        for (int i = 0; i < kLeaf; ++i) to[i] = from[leaf_offset(i, 0, 0)];
-      } else {
-        for (int i = 0; i < size[0]; ++i) to[i] = from[leaf_offset(i, 0, 0)];
-      }
-    }
-  }
-}
-
-}  // namespace
 
 void copy_voxels(const openvdb::FloatGrid& grid, const std::array<int, 3>& begin, const std::array<int, 3>& size,
                  float* out) {

@@ -164,7 +164,6 @@ TEST_P(InteriorLatticeTest, DeepPointsTakenBecomeShellAndTheRestStaysDelaunayAnd
   const std::size_t all = deep.points.size() + deep.shell.size();
   const Point3 place = deep.points[deep.points.size() / 3];
   for (double reach = 0; !deep.points.empty(); reach += kCellSize) {
-    const std::vector<Point3> before = deep.points;
     const std::vector<Point3> taken = deep.take_near(place, reach);
     ASSERT_FALSE(taken.empty());
     ASSERT_EQ(deep.points.size() + deep.shell.size(), all);

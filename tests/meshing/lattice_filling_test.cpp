@@ -182,6 +182,9 @@ TEST_P(LatticeFilling, TheBoundHoldsAmongDeepPointsOnceTheyAreInserted) {
   };
   const TetCriteria finer{2, SizeField(field, kSize / 2, kSize)};
   const TetMesh mesh = finish(finer);
+  if (const auto& deep = refinement_->deep()) {
+    EXPECT_EQ(std::count(deep->points.begin(), deep->points.end(), deeper), 0);
+  }
   expect_promises(mesh, finer.cell_size);
 }
 

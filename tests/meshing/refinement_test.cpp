@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "phantom_cases.h"
@@ -69,9 +70,11 @@ TEST_P(KeptBalls, AreThoseOfTheFacetsThatHaveThem) {
 // wherever a Voronoi edge crosses the surface, its vertices are near.
 TEST(SeedsOfFineMeshes, LieWithinTwoVoxelsAndTwoSizesOfWhereVoronoiEdgesCrossTheSurface) {
   for (const char* kind : {"random", "noisy-sphere", "gyroid"}) {
-    for (const double size : {0.25, 0.55}) {
-      SCOPED_TRACE(std::string(kind) + ", " + std::to_string(size));
-      const auto oracle = test::voxel_phantom_oracle(kind, test::with_noise(test::cubic_image(14), 1));
+    for (const auto& [size, longest_voxel] : {std::array{0.25, 1.0}, {0.55, 1.0}, {0.55, 2.5}}) {
+      SCOPED_TRACE(std::string(kind) + ", " + std::to_string(size) + ", " + std::to_string(longest_voxel));
+      PhantomOptions image = test::with_noise(test::cubic_image(14), 1);
+      image.spacing.z = longest_voxel;
+      const auto oracle = test::voxel_phantom_oracle(kind, image);
       ASSERT_FALSE(oracle->landmarks(size, always_go_on).points.empty());
       RestrictedDelaunay delaunay(*oracle);
       delaunay.insert_seeds(oracle->seeds(size, always_go_on).points);
@@ -82,7 +85,7 @@ TEST(SeedsOfFineMeshes, LieWithinTwoVoxelsAndTwoSizesOfWhereVoronoiEdgesCrossThe
           const Point3& corner = delaunay.point(delaunay.vertices(FacetId{cell, i})[0]);
           for (const Point3& p : delaunay.dual_crossings({cell, i}, *oracle)) {
             ++crossings;
-            far += distance(p, corner) > 2 + 2 * size;
+            far += distance(p, corner) > 2 * longest_voxel + 2 * size;
           }
         }
       }
