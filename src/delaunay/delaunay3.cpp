@@ -46,9 +46,7 @@ void Delaunay3::clear() {
 }
 
 void Delaunay3::make_first_cell() {
-  cells_.grow_to(1);
-  stamps_.grow_to(1);
-  claims_.grow_to(1);
+  grow_cells(1);
   cells_[kOutside] = {{kNone, kNone, kNone, kNone}, {kOutside, kOutside, kOutside, kOutside}, {{}, -1}};
   stamps_[kOutside] = next_stamp_++;
   const CellId first = new_cell();
@@ -207,12 +205,16 @@ VertexId Delaunay3::new_vertex() {
   return vertex;
 }
 
+void Delaunay3::grow_cells(std::size_t count) {
+  cells_.grow_to(count);
+  stamps_.grow_to(count);
+  claims_.grow_to(count);
+}
+
 CellId Delaunay3::new_cell() {
   if (free_cells_.empty()) {
     const std::size_t cell = cells_.size();
-    cells_.grow_to(cell + 1);
-    stamps_.grow_to(cell + 1);
-    claims_.grow_to(cell + 1);
+    grow_cells(cell + 1);
     stamps_[cell] = 0;
     return static_cast<CellId>(cell);
   }

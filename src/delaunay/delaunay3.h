@@ -10,6 +10,7 @@
 #include "core/page_array.h"
 #include "delaunay/circumsphere.h"
 #include "delaunay/ids.h"
+#include "delaunay/known_tets.h"
 #include "delaunay/star.h"
 #include "delaunay/star_search.h"
 #include "delvox/core/geometry.h"
@@ -118,6 +119,15 @@ class Delaunay3 {
   /// As above, beside others. The cells' stamp is the claim. pre: holds(star, claim), room furnished for the star.
   VertexId commit(const Star& star, std::uint32_t claim, Room& room, std::vector<CellId>& created);
 
+  // Tets that are known, in place of what their walls enclose: what inserting their points would end in.
+
+  /// First: numbers for their points and cells.
+  void make_room_for(const KnownTets& known);
+  /// Then each, beside others. `first_vertex`: of the numbers that their points have got. `stamp`: greater than all before.
+  void set_known(CellId cell, const KnownTets::Tet& tet, VertexId first_vertex, std::uint32_t stamp);
+  /// Then all of them take the place of the region that find_walled_region() found before.
+  void put_in_place(const KnownTets& known, const WalledRegion& region);
+
   /// Removes a vertex; `destroyed` receives the numbers of the cells that are gone, `created` of those that fill the
   /// hole. pre: no corner.
   void remove(VertexId vertex, std::vector<CellId>& destroyed, std::vector<CellId>& created);
@@ -144,6 +154,7 @@ class Delaunay3 {
   void find_zone(const Point3& p, CellId start, Star& star, StarSearch& search) const;
   VertexId new_vertex();
   CellId new_cell();
+  void grow_cells(std::size_t count);
   void set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere);
   void repoint(VertexId vertex, CellId cell, std::uint32_t claim);
   void join(FacetId facet, FacetId outer);

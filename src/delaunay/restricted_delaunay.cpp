@@ -90,8 +90,7 @@ SurfaceBall RestrictedDelaunay::find_ball(FacetId facet, const Oracle& oracle) c
 bool RestrictedDelaunay::proper(FacetId facet) const {
   const auto v = vertices(facet);
   const CellId other = neighbors(facet.cell)[facet.index];
-  return *std::min_element(v.begin(), v.end()) >= Delaunay3::kCorners && other != kBeyond &&
-         !(placeholder(facet.cell) && placeholder(other));
+  return *std::min_element(v.begin(), v.end()) >= Delaunay3::kCorners && other != kBeyond;
 }
 
 std::vector<Point3> RestrictedDelaunay::dual_crossings(FacetId facet, const Oracle& oracle) const {

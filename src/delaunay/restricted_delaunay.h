@@ -10,9 +10,9 @@
 #include "core/parallel.h"
 #include "core/team.h"
 #include "delaunay/delaunay3.h"
+#include "delaunay/known_tets.h"
 #include "delaunay/lane.h"
 #include "delaunay/surface_balls.h"
-#include "delaunay/walled_region.h"
 #include "delvox/core/geometry.h"
 #include "delvox/oracle/oracle.h"
 
@@ -41,16 +41,9 @@ class RestrictedDelaunay {
   /// points not inserted; created() holds all cells made.
   std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const GoOn& go_on);
 
-  /// Sets a part of the domain aside: its cells are placeholders for a mesh of it that is known otherwise, until
-  /// take_back(). `walls`: each counter-clockwise seen from outside the part. False, and nothing is set aside, if one
-  /// of them is no facet.
-  bool set_aside(const std::vector<WalledRegion::Wall>& walls) { return aside_.enclose(delaunay_, walls); }
-  void take_back() { aside_.clear(); }
-  bool placeholder(CellId cell) const { return aside_.inside(cell); }
-  /// Would replacing these cells change what is set aside?
-  bool disturbs_aside(const auto& cells) const {
-    return !aside_.empty() && std::any_of(cells.begin(), cells.end(), [&](CellId c) { return aside_.guarded(c); });
-  }
+  /// Puts tets inside the domain that are known in place of what their walls enclose; created() holds those at walls. False, and
+  /// nothing is changed, if one of the walls is no facet.
+  bool replace(const KnownTets& known);
 
   std::size_t cell_capacity() const { return delaunay_.cell_capacity(); }
   std::size_t vertex_capacity() const { return delaunay_.vertex_capacity(); }
@@ -104,7 +97,7 @@ class RestrictedDelaunay {
                               const Oracle& oracle) {
     return label_a < label_b ? oracle.intersect(center_a, center_b) : oracle.intersect(center_b, center_a);
   }
-  /// Is it a facet of Del S, that is, without corners, and of a part that is not set aside?
+  /// Is it a facet of Del S, that is, without corners?
   bool proper(FacetId facet) const;
   /// Every crossing of the facet's dual edge, whatever its labels, in an order that is the same from both sides.
   std::vector<Point3> dual_crossings(FacetId facet, const Oracle& oracle) const;
@@ -117,7 +110,7 @@ class RestrictedDelaunay {
   VertexId commit(VertexKind kind);
   /// Removes an interior vertex; created() holds the cells that fill the hole.
   void remove(VertexId vertex);
-  /// Cells made by the last insert_seeds, insert_interior, commit or remove.
+  /// Cells made by the last insert_seeds, insert_interior, replace, commit or remove.
   const std::vector<CellId>& created() const { return created_; }
 
   // Insertions in lanes. First, beside each other: evaluate and claim; then, by one thread: furnish; then, beside each
@@ -163,7 +156,6 @@ class RestrictedDelaunay {
   std::vector<VertexKind> kinds_;
   PageArray<std::uint16_t> labels_;
   SurfaceBalls balls_;
-  WalledRegion aside_;
   std::vector<CellId> created_, destroyed_;
   Lane lane_;  // for insertions one by one
 };

@@ -1,73 +1,93 @@
 #include "delaunay/walled_region.h"
 
+#include <algorithm>
+
+#include "delaunay/delaunay3.h"
+
 namespace delvox {
 namespace {
-
-using Wall = WalledRegion::Wall;
 
 /// Walls found by their smallest vertex.
 class WallIndex {
  public:
-  WallIndex(const std::vector<Wall>& walls, std::size_t vertices) : first_(vertices + 1, 0), sorted_(walls.size()) {
-    for (const Wall& wall : walls) ++first_[canonical(wall)[0] + 1];
+  WallIndex(const std::vector<Wall>& walls, std::size_t vertices)
+      : at_wall_(vertices, 0), first_(vertices + 1, 0), sorted_(walls.size()) {
+    for (const Wall& wall : walls) {
+      for (VertexId v : wall) at_wall_[v] = 1;
+      ++first_[key(wall).smallest + 1];
+    }
     for (std::size_t v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
     std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
-    for (const Wall& wall : walls) sorted_[next[canonical(wall)[0]]++] = canonical(wall);
+    for (std::uint32_t w = 0; w < walls.size(); ++w) {
+      const Key sought = key(walls[w]);
+      sorted_[next[sought.smallest]++] = {sought.others, w};
+    }
   }
 
-  bool contains(const Wall& facet) const {
-    const Wall sought = canonical(facet);
-    for (std::uint32_t i = first_[sought[0]]; i < first_[sought[0] + 1]; ++i) {
-      if (sorted_[i] == sought) return true;
+  /// May a facet of the cell be a wall?
+  bool may_be_at_wall(const std::array<VertexId, 4>& v) const {
+    return at_wall_[v[0]] + at_wall_[v[1]] + at_wall_[v[2]] + at_wall_[v[3]] >= 3;
+  }
+  /// The wall's number; kNone if it is none.
+  std::uint32_t find(const Wall& facet) const {
+    const Key sought = key(facet);
+    for (std::uint32_t i = first_[sought.smallest]; i < first_[sought.smallest + 1]; ++i) {
+      if (sorted_[i].others == sought.others) return sorted_[i].number;
     }
-    return false;
+    return kNone;
   }
 
  private:
+  struct Key {
+    VertexId smallest;
+    std::uint64_t others;  // the two that follow it
+  };
+  struct Entry {
+    std::uint64_t others;
+    std::uint32_t number;
+  };
+  static Key key(const Wall& wall) {
+    const int first = wall[0] < wall[1] ? (wall[0] < wall[2] ? 0 : 2) : (wall[1] < wall[2] ? 1 : 2);
+    return {wall[first], std::uint64_t{wall[(first + 1) % 3]} << 32 | wall[(first + 2) % 3]};
+  }
+
+  std::vector<std::uint8_t> at_wall_;
   std::vector<std::uint32_t> first_;
-  std::vector<Wall> sorted_;
+  std::vector<Entry> sorted_;
 };
 
 }  // namespace
 
-bool WalledRegion::enclose(const Delaunay3& delaunay, const std::vector<Wall>& walls) {
+std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const std::vector<Wall>& walls) {
   const WallIndex index(walls, delaunay.vertex_capacity());
-  std::vector<std::uint8_t> on_wall(delaunay.vertex_capacity(), 0);
-  for (const Wall& wall : walls) {
-    for (VertexId v : wall) on_wall[v] = 1;
-  }
-  places_.assign(delaunay.cell_capacity(), kElsewhere);
-  std::vector<CellId> stack;
-  std::vector<FacetId> found;
+  WalledRegion region;
+  region.outside.resize(walls.size());
+  constexpr std::uint8_t kInside = 1 << 4;  // beside a bit for each facet that is a wall
+  std::vector<std::uint8_t> known(delaunay.cell_capacity(), 0);
+  const auto add = [&](CellId cell) {
+    if ((known[cell] & kInside) == 0) region.cells.push_back(cell);
+    known[cell] |= kInside;
+  };
+  std::size_t found = 0;
   for (CellId cell = Delaunay3::kOutside + 1; cell < delaunay.cell_capacity(); ++cell) {
-    const auto& v = delaunay.vertices(cell);
-    if (delaunay.stamp(cell) == 0 || on_wall[v[0]] + on_wall[v[1]] + on_wall[v[2]] + on_wall[v[3]] < 3) continue;
+    if (delaunay.stamp(cell) == 0 || !index.may_be_at_wall(delaunay.vertices(cell))) continue;
     for (int i = 0; i < 4; ++i) {
-      if (!index.contains(delaunay.vertices(FacetId{cell, i}))) continue;
-      found.push_back({cell, i});
-      if (places_[cell] == kElsewhere) stack.push_back(cell);
-      places_[cell] = kInside;
+      const std::uint32_t wall = index.find(delaunay.vertices(FacetId{cell, i}));
+      if (wall == kNone) continue;
+      ++found;
+      region.outside[wall] = delaunay.mirror({cell, i});
+      known[cell] |= static_cast<std::uint8_t>(1 << i);
+      add(cell);
     }
   }
-  if (found.size() != walls.size()) {
-    clear();
-    return false;
-  }
-  while (!stack.empty()) {
-    const CellId cell = stack.back();
-    stack.pop_back();
+  if (found != walls.size()) return std::nullopt;
+  for (std::size_t next = 0; next < region.cells.size(); ++next) {
+    const CellId cell = region.cells[next];
     for (int i = 0; i < 4; ++i) {
-      const CellId next = delaunay.neighbors(cell)[i];
-      if (places_[next] == kInside || index.contains(delaunay.vertices(FacetId{cell, i}))) continue;
-      places_[next] = kInside;
-      stack.push_back(next);
+      if ((known[cell] >> i & 1) == 0) add(delaunay.neighbors(cell)[i]);
     }
   }
-  for (const FacetId& wall : found) {
-    Place& beyond = places_[delaunay.neighbors(wall.cell)[wall.index]];
-    if (beyond == kElsewhere) beyond = kGuard;
-  }
-  return true;
+  return region;
 }
 
 }  // namespace delvox

@@ -46,8 +46,7 @@ TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunRe
 
   refinement.report_unmet();
   refinement.retire();
-  TetMesh mesh = extract_tets(refinement.delaunay(), refinement.deep() ? &*refinement.deep() : nullptr,
-                              refinement.feature_edges());  // step 8
+  TetMesh mesh = extract_tets(refinement.delaunay(), refinement.feature_edges());  // step 8
   mesh.info.promises = promises_of(options.surface, options.tets);
   withdraw_unmet(report, mesh.info.promises);
   mesh.info.complete = report.succeeded();

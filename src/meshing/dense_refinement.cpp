@@ -40,7 +40,7 @@ double Refinement::rough_share() const {
 void Refinement::insert_more(const std::vector<Point3>& points) {
   for (const Point3& p : points) {
     if (!budget_left()) return;
-    if (evaluate(p, delaunay_.some_cell()).duplicate) continue;
+    if (delaunay_.evaluate(p, delaunay_.some_cell()).duplicate) continue;
     if (insert_surface_point(p, delaunay_.some_cell())) ++report_.surface_insertions;
   }
 }

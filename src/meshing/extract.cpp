@@ -19,10 +19,10 @@ class Numbering {
 
   /// Beside other calls: whoever uses a vertex writes the same.
   void use(VertexId vertex) { std::atomic_ref(used_[vertex]).store(1, std::memory_order_relaxed); }
-  /// Once all are known: their points, with room for so many more.
-  std::vector<Point3> count(std::size_t more) {
+  /// Once all are known: their points.
+  std::vector<Point3> count() {
     std::vector<Point3> points;
-    points.reserve(delaunay_.vertex_count() + more);
+    points.reserve(delaunay_.vertex_count());
     for (VertexId v = 0; v < used_.size(); ++v) {
       if (used_[v] == 0) continue;
       numbers_[v] = static_cast<std::uint32_t>(points.size());
@@ -46,11 +46,11 @@ std::vector<FacetId> outer_triangles(const RestrictedDelaunay& delaunay) {
   return triangles;
 }
 
-/// visit(cell) for the chunk's cells inside the domain that are not placeholders.
+/// visit(cell) for the chunk's cells inside the domain.
 template <class Visit>
 void for_each_inside(const RestrictedDelaunay& delaunay, std::size_t begin, std::size_t end, const Visit& visit) {
   for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
-    if (delaunay.stamp(cell) != 0 && delaunay.label(cell) != 0 && !delaunay.placeholder(cell)) visit(cell);
+    if (delaunay.stamp(cell) != 0 && delaunay.label(cell) != 0) visit(cell);
   }
 }
 
@@ -102,33 +102,6 @@ void add_inside(const RestrictedDelaunay& delaunay, const Numbering& number, con
   });
 }
 
-/// The vertices at deep tets. Others of the shell may be gone by now.
-void use_shell(const DeepLattice& deep, Numbering& number) {
-  for_each_chunk(deep.tets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      for (std::uint32_t corner : deep.tets[t]) {
-        if (deep.vertex(corner) != kNone) number.use(deep.vertex(corner));
-      }
-    }
-  });
-}
-
-void add_deep(const DeepLattice& deep, const Numbering& number, std::size_t first_tet, TetMesh& mesh) {
-  const auto first = static_cast<std::uint32_t>(mesh.points.size());
-  const auto shell = static_cast<std::uint32_t>(deep.shell.size());
-  mesh.points.insert(mesh.points.end(), deep.points.begin(), deep.points.end());
-  for_each_chunk(deep.tets.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      for (std::size_t i = 0; i < 4; ++i) {
-        const std::uint32_t corner = deep.tets[t][i];
-        const bool is_deep = corner >= shell;
-        mesh.tets[first_tet + t][i] = is_deep ? first + corner - shell : number(deep.shell[corner]);
-        if (is_deep) mesh.regions[first_tet + t] = deep.labels[corner - shell];
-      }
-    }
-  });
-}
-
 }  // namespace
 
 SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay, const std::vector<std::array<VertexId, 2>>& features) {
@@ -138,23 +111,21 @@ SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay, const std::vecto
   for (FacetId facet : triangles) {
     for (VertexId v : delaunay.vertices(facet)) number.use(v);
   }
-  mesh.points = number.count(0);
+  mesh.points = number.count();
   mesh.triangles = numbered_triangles(delaunay, number, triangles);
   mesh.features = numbered_edges(number, features);
   return mesh;
 }
 
-TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep,
+TetMesh extract_tets(const RestrictedDelaunay& delaunay, 
                      const std::vector<std::array<VertexId, 2>>& features) {
   TetMesh mesh;
   Numbering number(delaunay);
   const std::vector<std::size_t> first = use_inside(delaunay, number);
-  if (deep != nullptr) use_shell(*deep, number);
-  mesh.points = number.count(deep != nullptr ? deep->points.size() : 0);
-  mesh.tets.resize(first.back() + (deep != nullptr ? deep->tets.size() : 0));
+  mesh.points = number.count();
+  mesh.tets.resize(first.back());
   mesh.regions.resize(mesh.tets.size());
   add_inside(delaunay, number, first, mesh);
-  if (deep != nullptr) add_deep(*deep, number, first.back(), mesh);
   mesh.boundary = numbered_triangles(delaunay, number, outer_triangles(delaunay));
   mesh.features = numbered_edges(number, features);
   mesh.on_surface.assign(mesh.points.size(), 0);

@@ -5,7 +5,6 @@
 
 #include "delaunay/restricted_delaunay.h"
 #include "delvox/core/mesh.h"
-#include "meshing/deep_lattice.h"
 
 namespace delvox {
 
@@ -14,9 +13,8 @@ namespace delvox {
 SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay,
                             const std::vector<std::array<VertexId, 2>>& features = {});
 
-/// The cells with a label other than 0, the triangles between them and the outside, and the vertices they use; in place
-/// of placeholders the tets of `deep`, if given.
-TetMesh extract_tets(const RestrictedDelaunay& delaunay, const DeepLattice* deep,
+/// The cells with a label other than 0, the triangles between them and the outside, and the vertices they use.
+TetMesh extract_tets(const RestrictedDelaunay& delaunay, 
                      const std::vector<std::array<VertexId, 2>>& features = {});
 
 }  // namespace delvox

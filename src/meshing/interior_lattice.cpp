@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <iterator>
+#include <stdexcept>
 #include <utility>
 
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/round.h"
 #include "delaunay/restricted_triangles.h"
+#include "meshing/deep_tets.h"
 #include "meshing/lattice_rows.h"
 
 namespace delvox {
@@ -177,38 +180,34 @@ Point3 InteriorLattice::point(Site site) const {
   return p;
 }
 
-/// Is one of the 14 sites around it at that depth?
-bool InteriorLattice::touches(int depth, Site site) const {
+/// Is one of the 14 sites around it, with which it shares tets, blocked or outside?
+bool InteriorLattice::touches_blocked(Site site) const {
   for (Site step : stride_) {
-    if (state_of(site - step) == depth || state_of(site + step) == depth) return true;
+    if (state_[site - step] == kBlocked || state_[site + step] == kBlocked) return true;
   }
   // The other kind's sites around a centre are its cube's corners, those around a corner lie the other way.
   const Site low = is_centre(site) ? site - cubes_ : site + cubes_ - stride_[0] - stride_[1] - stride_[2];
   for (int corner = 0; corner < 8; ++corner) {
     const Site other = low + (corner & 1) * stride_[0] + (corner >> 1 & 1) * stride_[1] + (corner >> 2) * stride_[2];
-    if (state_of(other) == depth) return true;
+    if (state_[other] == kBlocked) return true;
   }
   return false;
 }
 
 void InteriorLattice::find_depths() {
-  for (int depth = kBlocked; depth + 1 < kDeep; ++depth) {
-    // Sites that get their depth meanwhile are at neither of the depths that are looked at.
-    for_each_chunk(inside_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        const Site s = inside_[i];
-        if (state_of(s) != kDeep || !touches(depth, s)) continue;
-        std::atomic_ref(state_[s]).store(static_cast<std::uint8_t>(depth + 1), std::memory_order_relaxed);
-      }
-    });
-  }
+  for_each_chunk(inside_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      std::uint8_t& state = state_[inside_[i]];
+      if (state != kBlocked && touches_blocked(inside_[i])) std::atomic_ref(state).store(kShell, std::memory_order_relaxed);
+    }
+  });
   std::vector<ShellSite> known;
   known.swap(shell_);
   deep_.clear();
   auto next_known = known.begin();
   for (Site s : inside_) {
-    if (is_deep(s)) deep_.push_back(s);
-    if (is_deep(s) || state_[s] == kBlocked) continue;
+    if (state_[s] == kDeep) deep_.push_back(s);
+    if (state_[s] != kShell) continue;
     while (next_known != known.end() && next_known->site < s) ++next_known;
     const bool is_known = next_known != known.end() && next_known->site == s;
     shell_.push_back({s, is_known ? next_known->vertex : kNone});
@@ -248,52 +247,27 @@ bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
   return true;
 }
 
-/// The tets along the edge from a site to the next of its kind: one for each pair of neighbours in the ring of four
-/// sites of the other kind around the edge's middle.
-std::array<InteriorLattice::Tet, 4> InteriorLattice::tets_along(Site site, int axis) const {
-  const Site next = site + stride_[axis], u = stride_[(axis + 1) % 3], v = stride_[(axis + 2) % 3];
-  const Site low = is_centre(site) ? next - cubes_ : site + cubes_ - u - v;
-  const std::array<Site, 4> ring{low, low + u, low + u + v, low + v};
-  std::array<Tet, 4> tets;
-  for (int i = 0; i < 4; ++i) tets[i] = {site, next, ring[i], ring[(i + 1) % 4]};
-  return tets;
-}
-
-/// The tets that have this deep site as their first deep corner.
-void InteriorLattice::add_deep_tets(Site site, std::vector<Tet>& tets) const {
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const Site start : {site, site - stride_[axis]}) {
-      for (const Tet& tet : tets_along(start, axis)) {
-        // Each is met from all of its deep corners.
-        if (std::none_of(tet.begin(), tet.end(), [&](Site c) { return c < site && is_deep(c); })) tets.push_back(tet);
-      }
-    }
-  }
-}
-
-DeepLattice InteriorLattice::deep() const {
-  DeepLattice result;
-  std::vector<std::uint32_t> number(state_.size());
-  for (const ShellSite& shell : shell_) {
-    number[shell.site] = static_cast<std::uint32_t>(result.shell.size());
-    result.shell.push_back(shell.vertex);
-  }
+void InteriorLattice::add_deep(RestrictedDelaunay& delaunay) const {
+  std::vector<Site> corners;
+  std::copy_if(inside_.begin(), inside_.end(), std::back_inserter(corners),
+               [this](Site site) { return !is_centre(site) && state_[site] != kBlocked; });
+  auto next_vertex = static_cast<VertexId>(delaunay.vertex_capacity());
+  std::vector<VertexId> vertex_of(state_.size(), kNone);
+  std::vector<Label> labels;
+  for (const ShellSite& shell : shell_) vertex_of[shell.site] = shell.vertex;
   for (std::size_t i = 0; i < inside_.size(); ++i) {
-    if (!is_deep(inside_[i])) continue;
-    number[inside_[i]] = static_cast<std::uint32_t>(shell_.size() + result.labels.size());
-    result.labels.push_back(labels_[i]);
+    if (state_[inside_[i]] != kDeep) continue;
+    vertex_of[inside_[i]] = next_vertex++;
+    labels.push_back(labels_[i]);
   }
-  result.points.resize(deep_.size());
+  const DeepTets tets(delaunay, LatticeTets(counts_), corners, std::move(vertex_of), std::move(labels));
+  KnownTets known = tets.known();
+  known.points.resize(deep_.size());
   for_each_chunk(deep_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) result.points[i] = point(deep_[i]);
+    for (std::size_t i = begin; i < end; ++i) known.points[i] = point(deep_[i]);
   });
-  result.tets = gather_chunks<Tet>(deep_.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& tets) {
-    for (std::size_t i = begin; i < end; ++i) add_deep_tets(deep_[i], tets);
-    for (Tet& tet : tets) {
-      for (Site& corner : tet) corner = number[corner];
-    }
-  });
-  return result;
+  // Their spheres are empty, so that their faces are facets whatever else there is.
+  if (!delaunay.replace(known)) throw std::logic_error("a face of the interior lattice is no facet");
 }
 
 }  // namespace delvox

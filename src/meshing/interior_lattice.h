@@ -8,7 +8,7 @@
 #include "delaunay/restricted_delaunay.h"
 #include "delvox/core/geometry.h"
 #include "delvox/oracle/oracle.h"
-#include "meshing/deep_lattice.h"
+#include "meshing/lattice_tets.h"
 
 namespace delvox {
 
@@ -16,11 +16,11 @@ namespace delvox {
 /// hundredth of its spacing. Its Delaunay tetrahedra have dihedral angles of 60 and 90 degrees, and no other lattice
 /// site comes near their circumspheres: most of a body needs neither refinement nor insertion. Not in the book.
 ///
-/// Sites near the surface (the shell) are to be inserted. Deep ones, at least three steps from the nearest site that is
-/// blocked or outside, can be written down: the tets with a deep corner are Delaunay whatever lies beyond the shell.
+/// Sites beside one that is blocked or outside (the shell) are to be inserted. Around the others, the deep ones, all
+/// tets are the lattice's: these are Delaunay whatever lies beyond the shell, and go into the triangulation as they are.
 class InteriorLattice {
  public:
-  using Site = std::uint32_t;
+  using Site = LatticeTets::Site;
 
   /// A site to be inserted, and its vertex, kNone until it is.
   struct ShellSite {
@@ -43,14 +43,12 @@ class InteriorLattice {
   /// Blocks the sites whose vertices are gone and those near vertices that the surface has got since, and moves the
   /// shell inward there. False if there is none.
   bool adapt(const RestrictedDelaunay& delaunay);
-  /// The tets with at least one deep corner. pre: all of shell() have their vertices.
-  DeepLattice deep() const;
+  const std::vector<Site>& deep() const { return deep_; }
+  /// Adds the deep sites and their tets to the triangulation. pre: all of shell() have their vertices.
+  void add_deep(RestrictedDelaunay& delaunay) const;
 
  private:
-  /// State of a site: steps from the nearest that is blocked or outside. With a shell of two, refinement beside the
-  /// surface hardly ever comes near the tets that have deep corners.
-  enum Depth : std::uint8_t { kBlocked = 0, kDeep = 3 };
-  using Tet = std::array<Site, 4>;
+  enum State : std::uint8_t { kBlocked, kShell, kDeep };
 
   bool lay_out(const RestrictedDelaunay& delaunay);
   bool find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on);
@@ -60,11 +58,8 @@ class InteriorLattice {
   bool block_around(const Point3& p, double radius);
   bool block(Site site);
   bool block_removed(const RestrictedDelaunay& delaunay);
-  bool touches(int depth, Site site) const;
-  std::array<Tet, 4> tets_along(Site site, int axis) const;
-  void add_deep_tets(Site site, std::vector<Tet>& tets) const;
+  bool touches_blocked(Site site) const;
 
-  bool is_deep(Site site) const { return state_[site] == kDeep; }
   /// As others may be changing it.
   std::uint8_t state_of(Site site) const {
     return std::atomic_ref(state_[site]).load(std::memory_order_relaxed);

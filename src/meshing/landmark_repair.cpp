@@ -75,7 +75,7 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
   // A landmark that lies on the surface itself, as ties and symmetric volumes have them, asks for points ever nearer to
   // it.
   const double smallest = surface_.min_ball_radius;
-  const Star& star = evaluate(p, hint);
+  const Star& star = delaunay_.evaluate(p, hint);
   bool too_near = star.duplicate;
   for (const Star::Tet& tet : star.tets) {
     for (VertexId vertex : tet.vertices)

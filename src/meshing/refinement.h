@@ -12,7 +12,6 @@
 #include "delvox/meshing/criteria.h"
 #include "delvox/meshing/variant.h"
 #include "delvox/oracle/oracle.h"
-#include "meshing/deep_lattice.h"
 #include "meshing/feature_segments.h"
 #include "meshing/landmark_watch.h"
 #include "meshing/persistent_triangle.h"
@@ -91,8 +90,6 @@ class Refinement {
   const RestrictedDelaunay& delaunay() const { return delaunay_; }
   /// The edges that follow sharp edges of the domain.
   std::vector<std::array<VertexId, 2>> feature_edges() const;
-  /// The part of the mesh that is written down without being inserted, if any.
-  const std::optional<DeepLattice>& deep() const { return deep_; }
   RunBudget& budget() { return budget_; }
 
  private:
@@ -218,7 +215,7 @@ class Refinement {
   Box3 box_of_change(const Star& star) const;
   void note_change(const Box3& box, VertexId near);
   void note_new_facets();
-  std::size_t vertex_count() const { return delaunay_.vertex_count() + (deep_ ? deep_->points.size() : 0); }
+  std::size_t vertex_count() const { return delaunay_.vertex_count(); }
   bool budget_left() { return budget_.go_on(vertex_count(), queues_.waiting()); }
 
   // Voronoi edges (voronoi_edges.cpp)
@@ -231,11 +228,7 @@ class Refinement {
   std::optional<Point3> crossing_of_excursion(FacetId facet, const Oracle& oracle) const;
 
   // Lattice (lattice_filling.cpp)
-  const Star& evaluate(const Point3& p, CellId hint);
   void insert_shell(InteriorLattice& lattice);
-  bool set_deep_aside();
-  void insert_deep(const Point3& place);
-  void insert_deep(const Point3& place, double reach);
 
   // Tetrahedra (tet_refinement.cpp)
   bool bad(CellId cell) const;
@@ -255,9 +248,6 @@ class Refinement {
   RunReport& report_;
   RunBudget budget_;
   RestrictedDelaunay delaunay_;
-  std::optional<DeepLattice> deep_;
-  int deep_insertions_ = 0;
-  double deep_reach_ = 0;  // of its points, how far around a place they are inserted when refinement comes there
 
   std::optional<FeatureSegments> features_;
   bool solid_ = false;

@@ -251,13 +251,6 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
   if (const auto done = leaves_to_features(waiting, *ball, lane, queues, alone)) return *done;
   Star& star = lane.lane.star;
   delaunay_.evaluate(ball->center, facet.cell, worker, star);
-  if (delaunay_.disturbs_aside(star.zone)) {
-    if (may_change) insert_deep(star.apex);
-    if (alone) return may_change;
-    lane.aside.facets.push_back(waiting);
-    queues.pop_facet();
-    return true;
-  }
   if (star.duplicate) {
     ++lane.stuck;
     lane.stuck_place = ball->center;

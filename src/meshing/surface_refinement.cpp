@@ -67,7 +67,6 @@ void Refinement::remove_interior_vertex_of(FacetId facet) {
 }
 
 void Refinement::remove_vertex(VertexId vertex) {
-  while (delaunay_.disturbs_aside(delaunay_.incident_cells(vertex))) insert_deep(delaunay_.point(vertex));
   const bool on_surface = delaunay_.kind(vertex) == VertexKind::kSurface;
   delaunay_.remove(vertex);
   note_new_facets();
@@ -134,7 +133,7 @@ std::optional<VertexId> Refinement::insert_surface_point(const Point3& p, CellId
 }
 
 std::optional<VertexId> Refinement::insert_on_surface(const Point3& p, CellId hint) {
-  const Star& star = evaluate(p, hint);
+  const Star& star = delaunay_.evaluate(p, hint);
   if (star.duplicate) {
     ++stuck_;
     stuck_place_ = p;

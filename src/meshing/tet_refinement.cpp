@@ -28,7 +28,7 @@ void Refinement::watch_tets(const TetCriteria& criteria) {
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<RefinementQueues::WaitingTet>& found) {
     for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
       const std::uint32_t stamp = delaunay_.stamp(cell);
-      const bool in_domain = stamp != 0 && delaunay_.label(cell) != 0 && !delaunay_.placeholder(cell);
+      const bool in_domain = stamp != 0 && delaunay_.label(cell) != 0;
       if (in_domain && bad(cell)) found.push_back({cell, stamp});
     }
   };
@@ -58,17 +58,12 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   delaunay_.evaluate(z, waiting.cell, worker, star);
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
   SurfaceBall ball;
-  if (!delaunay_.disturbs_aside(star.zone) && !star.duplicate &&
+  if (!star.duplicate &&
       (find_encroached_ball(star, *worker.oracle, ball) || find_new_ball(star, *worker.oracle, ball))) {
     kind = VertexKind::kSurface;
   }
   if (leaves_to_features(waiting, kind == VertexKind::kSurface ? ball.center : z, lane, queues, alone)) return;
   if (kind == VertexKind::kSurface) delaunay_.evaluate(ball.center, star.zone.front(), worker, star);
-  if (delaunay_.disturbs_aside(star.zone)) {
-    if (alone) return insert_deep(star.apex);
-    lane.aside.tets.push_back(waiting);
-    return queues.tets.pop_back();
-  }
   if (star.duplicate) {
     ++lane.stuck;
     lane.stuck_place = z;

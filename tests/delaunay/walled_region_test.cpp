@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
+#include "delaunay/delaunay3.h"
 #include "support/random.h"
 
 namespace delvox {
 namespace {
 
 using test::Random;
-using Wall = WalledRegion::Wall;
 
 const Box3 kBox{{-1, -1, -1}, {1, 1, 1}};
 
@@ -56,27 +56,28 @@ class WalledRegionTest : public testing::TestWithParam<int> {
 
 INSTANTIATE_TEST_SUITE_P(Balls, WalledRegionTest, testing::Values(1, 2, 5));
 
-TEST_P(WalledRegionTest, HoldsTheCellsWithinTheWallsInAnyOrderAndGuardsTheirNeighbours) {
+TEST_P(WalledRegionTest, HoldsTheCellsWithinTheWallsInAnyOrder) {
   ASSERT_GT(walls_.size(), 20u);
   std::vector<Wall> walls = walls_;
   for (std::size_t i = walls.size(); i > 1; --i) std::swap(walls[i - 1], walls[random_.bits() % i]);
   for (Wall& wall : walls) std::rotate(wall.begin(), wall.begin() + random_.below(3), wall.end());
-  WalledRegion region;
-  EXPECT_TRUE(region.empty());
-  ASSERT_TRUE(region.enclose(delaunay_, walls));
-  EXPECT_FALSE(region.empty());
-  for_each_cell([&](CellId cell) {
-    const auto& around = delaunay_.neighbors(cell);
-    const bool beside = std::any_of(around.begin(), around.end(), [&](CellId c) { return is_inside_[c]; });
-    EXPECT_EQ(region.inside(cell), is_inside_[cell]);
-    EXPECT_EQ(region.guarded(cell), is_inside_[cell] || beside);
-  });
-  region.clear();
-  EXPECT_TRUE(region.empty());
-  for_each_cell([&](CellId cell) { EXPECT_FALSE(region.inside(cell) || region.guarded(cell)); });
+  const auto region = find_walled_region(delaunay_, walls);
+  ASSERT_TRUE(region.has_value());
+  std::vector<bool> held(delaunay_.cell_capacity(), false);
+  for (CellId cell : region->cells) {
+    EXPECT_FALSE(held[cell]) << "twice";
+    held[cell] = true;
+  }
+  EXPECT_EQ(held, is_inside_);
+  ASSERT_EQ(region->outside.size(), walls.size());
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const FacetId outside = region->outside[w];
+    EXPECT_FALSE(is_inside_[outside.cell]);
+    EXPECT_EQ(canonical(delaunay_.vertices(delaunay_.mirror(outside))), canonical(walls[w]));
+  }
 }
 
-TEST_P(WalledRegionTest, AWallThatIsNoFacetMakesItEmpty) {
+TEST_P(WalledRegionTest, IsNoneIfAWallIsNoFacet) {
   std::vector<Wall> walls = walls_;
   VertexId far = walls.front()[0];  // any vertex that makes no facet with the two others
   const auto is_facet = [&](const Wall& wall) {
@@ -90,36 +91,8 @@ TEST_P(WalledRegionTest, AWallThatIsNoFacetMakesItEmpty) {
     far = Delaunay3::kCorners + static_cast<VertexId>(random_.below(1500));
   } while (far == walls[0][1] || far == walls[0][2] || is_facet({far, walls[0][1], walls[0][2]}));
   walls[0][0] = far;
-  WalledRegion region;
-  ASSERT_TRUE(region.enclose(delaunay_, walls_));
-  EXPECT_FALSE(region.enclose(delaunay_, walls));
-  EXPECT_TRUE(region.empty());
-}
-
-// What its user relies on: insertions that touch no guarded cell leave the region as it is, and their cells out of it.
-TEST_P(WalledRegionTest, InsertionsThatTouchNoGuardedCellLeaveItAlone) {
-  WalledRegion region;
-  ASSERT_TRUE(region.enclose(delaunay_, walls_));
-  std::vector<std::uint32_t> stamps(is_inside_.size());
-  for_each_cell([&](CellId cell) { stamps[cell] = delaunay_.stamp(cell); });
-  int inserted = 0, refused = 0;
-  for (int n = 0; n < 1000; ++n) {
-    delaunay_.evaluate(random_.in(kBox), delaunay_.cell_of(0), star_);
-    if (std::any_of(star_.zone.begin(), star_.zone.end(), [&](CellId c) { return region.guarded(c); })) {
-      ++refused;
-      continue;
-    }
-    delaunay_.commit(star_, created_);
-    ++inserted;
-    for (CellId cell : created_) EXPECT_FALSE(region.inside(cell));
-  }
-  EXPECT_GT(inserted, 50);
-  EXPECT_GT(refused, 5);
-  for (CellId cell = 0; cell < is_inside_.size(); ++cell) {
-    if (!is_inside_[cell]) continue;
-    EXPECT_EQ(delaunay_.stamp(cell), stamps[cell]);
-    EXPECT_TRUE(region.inside(cell));
-  }
+  EXPECT_TRUE(find_walled_region(delaunay_, walls_).has_value());
+  EXPECT_FALSE(find_walled_region(delaunay_, walls).has_value());
 }
 
 }  // namespace

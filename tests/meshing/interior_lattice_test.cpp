@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <set>
 
-#include "delaunay/circumsphere.h"
-#include "delaunay/predicates.h"
 #include "delvox/meshing/delsurf.h"
 #include "support/shapes.h"
 
@@ -46,73 +44,25 @@ class InteriorLatticeTest : public testing::TestWithParam<const char*> {
 
   InteriorLattice lattice(double cell_size = kCellSize) const { return {delaunay_, cell_size, always_go_on}; }
 
-  Point3 corner(const DeepLattice& deep, std::uint32_t number) const {
-    return deep.vertex(number) != kNone ? delaunay_.point(deep.vertex(number))
-                                        : deep.points[number - deep.shell.size()];
-  }
-  double volume(const std::array<Point3, 4>& p) const { return dot(cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0]) / 6; }
-  std::array<Point3, 4> points_of(const DeepLattice& deep, const std::array<std::uint32_t, 4>& tet) const {
-    return {corner(deep, tet[0]), corner(deep, tet[1]), corner(deep, tet[2]), corner(deep, tet[3])};
-  }
-  std::vector<WalledRegion::Wall> walls_of(const DeepLattice& deep) const {
-    std::vector<WalledRegion::Wall> walls;
-    for (const auto& tet : deep.tets) {
-      for (const auto& face : kTetFaces) {
-        const WalledRegion::Wall wall{deep.vertex(tet[face[0]]), deep.vertex(tet[face[1]]), deep.vertex(tet[face[2]])};
-        if (std::count(wall.begin(), wall.end(), kNone) == 0) walls.push_back(wall);
-      }
-    }
-    return walls;
-  }
-  /// Positive tets of circumradii within the bound, each with a deep corner; no vertex and no deep point in their
-  /// spheres.
-  void expect_delaunay(const DeepLattice& deep) const;
-  /// Its tets have the volume of what their walls set aside.
-  void expect_to_fill_walls(const DeepLattice& deep);
-
   std::unique_ptr<SmoothOracle> oracle_ = test::voxel_phantom_oracle(GetParam(), test::cubic_image(32));
   std::vector<Point3> surface_points_;
   RestrictedDelaunay delaunay_{*oracle_};
 };
 
-void InteriorLatticeTest::expect_to_fill_walls(const DeepLattice& deep) {
-  ASSERT_TRUE(delaunay_.set_aside(walls_of(deep)));
-  double within_walls = 0, deep_volume = 0;
-  for_each_cell([&](CellId cell) {
-    if (!delaunay_.placeholder(cell)) return;
-    const auto& v = delaunay_.vertices(cell);
-    within_walls +=
-        volume({delaunay_.point(v[0]), delaunay_.point(v[1]), delaunay_.point(v[2]), delaunay_.point(v[3])});
-  });
-  for (const auto& tet : deep.tets) deep_volume += volume(points_of(deep, tet));
-  EXPECT_GT(deep_volume, 0);
-  EXPECT_NEAR(within_walls / deep_volume, 1, 1e-12);
-}
-
-void InteriorLatticeTest::expect_delaunay(const DeepLattice& deep) const {
-  std::vector<Point3> all = deep.points;
-  for (VertexId v = Delaunay3::kCorners; v < delaunay_.vertex_capacity(); ++v) {
-    if (delaunay_.kind(v) != VertexKind::kRemoved) all.push_back(delaunay_.point(v));
-  }
-  std::size_t not_positive = 0, without_deep = 0, not_empty = 0;
-  double largest = 0;
-  for (std::size_t t = 0; t < deep.tets.size(); ++t) {
-    const auto& tet = deep.tets[t];
-    const std::array<Point3, 4> p = points_of(deep, tet);
-    not_positive += orientation(p[0], p[1], p[2], p[3]) <= 0;
-    without_deep += std::all_of(tet.begin(), tet.end(), [&](std::uint32_t c) { return deep.vertex(c) != kNone; });
-    const Circumsphere sphere = circumsphere(p[0], p[1], p[2], p[3]);
-    largest = std::max(largest, std::sqrt(sphere.squared_radius));
-    if (t % 7 != 0) continue;  // a sample is as good
-    for (const Point3& q : all) {
-      if (squared_distance(q, sphere.center) > sphere.squared_radius * (1 + 1e-6)) continue;
-      if (std::count(p.begin(), p.end(), q) == 0) not_empty += in_sphere(p[0], p[1], p[2], p[3], q);
+/// The tets inside the domain, by where their corners are.
+std::set<std::array<std::array<double, 3>, 4>> tets_inside(const RestrictedDelaunay& delaunay) {
+  std::set<std::array<std::array<double, 3>, 4>> tets;
+  for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
+    if (delaunay.stamp(cell) == 0 || delaunay.label(cell) == 0) continue;
+    std::array<std::array<double, 3>, 4> tet;
+    for (int i = 0; i < 4; ++i) {
+      const Point3& p = delaunay.point(delaunay.vertices(cell)[i]);
+      tet[i] = {p.x, p.y, p.z};
     }
+    std::sort(tet.begin(), tet.end());
+    tets.insert(tet);
   }
-  EXPECT_EQ(not_positive, 0u);
-  EXPECT_EQ(without_deep, 0u);
-  EXPECT_EQ(not_empty, 0u);
-  EXPECT_LE(largest, kCellSize);
+  return tets;
 }
 
 INSTANTIATE_TEST_SUITE_P(Phantoms, InteriorLatticeTest, testing::Values("sphere", "ellipsoid"),
@@ -141,45 +91,30 @@ TEST_P(InteriorLatticeTest, SitesLieInsideClearOfTheSurfaceAndItsBalls) {
   EXPECT_GT(nearest, 0.9 * kCellSize);
 }
 
-TEST_P(InteriorLatticeTest, DeepTetsAreDelaunayAndFillWhatTheirWallsEnclose) {
+TEST_P(InteriorLatticeTest, AddingTheDeepSitesWithTheirTetsEndsInWhatInsertingThemDoes) {
   InteriorLattice lattice = this->lattice();
   lattice.find_depths();
   lattice.insert_shell(delaunay_, always_go_on);
-  const DeepLattice deep = lattice.deep();
-  ASSERT_GT(deep.points.size(), 20u);
-  EXPECT_EQ(deep.points.size(), deep.labels.size());
-  EXPECT_LT(deep.points.size() + deep.shell.size(), lattice.site_count());
-  expect_delaunay(deep);
-  for (Label label : deep.labels) EXPECT_EQ(label, 1);
+  ASSERT_GT(lattice.deep().size(), 50u);
+  EXPECT_LT(lattice.deep().size() + lattice.shell().size(), lattice.site_count());
 
-  expect_to_fill_walls(deep);
-}
+  RestrictedDelaunay inserted(*oracle_);
+  inserted.insert_seeds(surface_points_);
+  std::vector<Point3> points;
+  for (const InteriorLattice::ShellSite& shell : lattice.shell()) points.push_back(lattice.point(shell.site));
+  for (InteriorLattice::Site site : lattice.deep()) points.push_back(lattice.point(site));
+  inserted.insert_interior(points, always_go_on);
 
-// Piece by piece, until nothing deep is left.
-TEST_P(InteriorLatticeTest, DeepPointsTakenBecomeShellAndTheRestStaysDelaunayAndFillsItsWalls) {
-  InteriorLattice lattice = this->lattice();
-  lattice.find_depths();
-  lattice.insert_shell(delaunay_, always_go_on);
-  DeepLattice deep = lattice.deep();
-  const std::size_t all = deep.points.size() + deep.shell.size();
-  const Point3 place = deep.points[deep.points.size() / 3];
-  for (double reach = 0; !deep.points.empty(); reach += kCellSize) {
-    const std::vector<Point3> taken = deep.take_near(place, reach);
-    ASSERT_FALSE(taken.empty());
-    ASSERT_EQ(deep.points.size() + deep.shell.size(), all);
-    EXPECT_EQ(deep.labels.size(), deep.points.size());
-    double farthest_taken = 0, nearest_left = Box3::kInfinity;
-    for (const Point3& p : taken) farthest_taken = std::max(farthest_taken, distance(p, place));
-    for (const Point3& p : deep.points) nearest_left = std::min(nearest_left, distance(p, place));
-    EXPECT_LT(farthest_taken, nearest_left);
-    const std::vector<VertexId> vertices = delaunay_.insert_interior(taken, always_go_on);
-    std::copy(vertices.begin(), vertices.end(), deep.shell.end() - static_cast<std::ptrdiff_t>(taken.size()));
-    if (deep.points.empty()) break;
-    expect_delaunay(deep);
-    expect_to_fill_walls(deep);
-    delaunay_.take_back();
+  const std::size_t before = delaunay_.vertex_count();
+  lattice.add_deep(delaunay_);
+  EXPECT_EQ(delaunay_.vertex_count(), before + lattice.deep().size());
+  EXPECT_EQ(tets_inside(delaunay_), tets_inside(inserted));
+  std::size_t not_lattice = 0;
+  for (CellId cell : delaunay_.created()) {
+    not_lattice += std::sqrt(delaunay_.sphere(cell).squared_radius) > kCellSize;
   }
-  EXPECT_TRUE(deep.tets.empty());
+  EXPECT_GT(delaunay_.created().size(), 100u);
+  EXPECT_EQ(not_lattice, 0u);
 }
 
 // As step 2 of DelTetSurf does with a site that disturbs the surface.
@@ -188,7 +123,7 @@ TEST_P(InteriorLatticeTest, ASiteThatIsRemovedMovesTheShellInward) {
   lattice.find_depths();
   lattice.insert_shell(delaunay_, always_go_on);
   EXPECT_FALSE(lattice.adapt(delaunay_));
-  const DeepLattice before = lattice.deep();
+  const std::size_t before = lattice.deep().size();
   std::vector<InteriorLattice::Site> removed;
   for (std::size_t i = 0; i < lattice.shell().size(); i += 150) {
     delaunay_.remove(lattice.shell()[i].vertex);
@@ -206,10 +141,8 @@ TEST_P(InteriorLatticeTest, ASiteThatIsRemovedMovesTheShellInward) {
   }
   lattice.insert_shell(delaunay_, always_go_on);
   EXPECT_FALSE(lattice.adapt(delaunay_));
-  const DeepLattice after = lattice.deep();
-  EXPECT_EQ(before.points.size(), after.points.size() + to_insert);
-  expect_delaunay(after);
-  EXPECT_TRUE(delaunay_.set_aside(walls_of(after)));
+  EXPECT_EQ(before, lattice.deep().size() + to_insert);
+  EXPECT_NO_THROW(lattice.add_deep(delaunay_));
 }
 
 TEST_P(InteriorLatticeTest, HasNoSitesWhereThereIsNoRoomOrTooMuchOrItIsToldToEnd) {
@@ -221,7 +154,10 @@ TEST_P(InteriorLatticeTest, HasNoSitesWhereThereIsNoRoomOrTooMuchOrItIsToldToEnd
   InteriorLattice none = lattice(40);
   none.find_depths();
   EXPECT_TRUE(none.shell().empty());
-  EXPECT_TRUE(none.deep().tets.empty());
+  EXPECT_TRUE(none.deep().empty());
+  const std::size_t cells = delaunay_.cell_capacity();
+  none.add_deep(delaunay_);
+  EXPECT_EQ(delaunay_.cell_capacity(), cells);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Filling the inside with a lattice, and what happens when refinement comes near the part of it that is only written
-// down: Refinement driven by hand, since deltetsurf's own criteria hardly ever lead there.
+// Filling the inside with a lattice, and refinement that goes on in it: Refinement driven by hand, since deltetsurf's own
+// criteria hardly ever lead there.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,9 +48,11 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
     refinement_->start();
     refine_surface();
     refinement_->fill_interior(lattice_);
-    ASSERT_TRUE(refinement_->deep().has_value());
-    deep_points_ = refinement_->deep()->points;
-    ASSERT_GT(deep_points_.size(), 50u);
+    const RestrictedDelaunay& delaunay = refinement_->delaunay();
+    for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
+      if (delaunay.kind(v) == VertexKind::kInterior) lattice_points_.push_back(delaunay.point(v));
+    }
+    ASSERT_GT(lattice_points_.size(), 200u);
   }
 
   void refine_surface() {
@@ -66,8 +68,7 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
       refinement_->refine();
     } while (refinement_->repair());
     refinement_->report_unmet();
-    const auto& deep = refinement_->deep();
-    TetMesh mesh = extract_tets(refinement_->delaunay(), deep ? &*deep : nullptr);
+    TetMesh mesh = extract_tets(refinement_->delaunay());
     mesh.info.promises = promises_of(surface_, criteria);
     mesh.info.complete = report_.succeeded();
     return mesh;
@@ -89,30 +90,11 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
     EXPECT_EQ(too_large, 0u);
   }
 
-  /// Of a tet that shares a face with the deep part.
-  Circumsphere sphere_at_the_wall() const {
-    const RestrictedDelaunay& delaunay = refinement_->delaunay();
-    for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
-      if (delaunay.stamp(cell) == 0 || delaunay.placeholder(cell)) continue;
-      for (CellId next : delaunay.neighbors(cell)) {
-        if (delaunay.placeholder(next)) return delaunay.sphere(cell);
-      }
-    }
-    ADD_FAILURE() << "nothing is set aside";
-    return {};
-  }
-
-  Point3 farthest_from(const Point3& place) const {
-    return *std::max_element(deep_points_.begin(), deep_points_.end(), [&](const Point3& a, const Point3& b) {
-      return distance(a, place) < distance(b, place);
-    });
-  }
-
   std::size_t points_kept(const TetMesh& mesh) const {
     std::vector<std::array<double, 3>> present;
     for (const Point3& p : mesh.points) present.push_back({p.x, p.y, p.z});
     std::sort(present.begin(), present.end());
-    return static_cast<std::size_t>(std::count_if(deep_points_.begin(), deep_points_.end(), [&](const Point3& p) {
+    return static_cast<std::size_t>(std::count_if(lattice_points_.begin(), lattice_points_.end(), [&](const Point3& p) {
       return std::binary_search(present.begin(), present.end(), std::array{p.x, p.y, p.z});
     }));
   }
@@ -123,68 +105,25 @@ class LatticeFilling : public testing::TestWithParam<const char*> {
   const RunControl control_;
   RunReport report_;
   std::optional<Refinement> refinement_;
-  std::vector<Point3> deep_points_;
+  std::vector<Point3> lattice_points_;
 };
 
 INSTANTIATE_TEST_SUITE_P(Phantoms, LatticeFilling, testing::Values("sphere", "ellipsoid", "border"),
                          [](const auto& info) { return std::string(info.param); });
 
-TEST_P(LatticeFilling, WhatIsOnlyWrittenDownMakesOneDelaunayMeshWithTheRest) {
+TEST_P(LatticeFilling, TheLatticeMakesOneDelaunayMeshWithTheRest) {
   const TetMesh mesh = finish(lattice_);
-  EXPECT_TRUE(refinement_->deep().has_value());
-  EXPECT_EQ(points_kept(mesh), deep_points_.size());
+  EXPECT_EQ(points_kept(mesh), lattice_points_.size());
   expect_promises(mesh, lattice_.cell_size);
 }
 
-// Cells in one half must be half as large: refinement crosses the shell there, again and again, the deep sites are
-// inserted after all, and the bound holds among them too.
-TEST_P(LatticeFilling, RefinementThatComesNearTheDeepPartInsertsItAndGoesOnThere) {
+// Cells in one half must be half as large.
+TEST_P(LatticeFilling, RefinementGoesOnInTheLattice) {
   const TetCriteria finer{2,
                           SizeField([](const Point3& p) { return p.x > 0.3 ? kSize / 2 : kSize; }, kSize / 2, kSize)};
   const TetMesh mesh = finish(finer);
-  if (refinement_->deep()) {
-    for (const Point3& p : refinement_->deep()->points) EXPECT_LT(p.x, 0.3 + kSize);
-  }
-  EXPECT_EQ(points_kept(mesh), deep_points_.size()) << "sites that became vertices";
-  expect_promises(mesh, finer.cell_size);
-}
-
-// One bad tet at the wall is enough, and what it takes is no reason to refine the rest, or to insert what is far away.
-TEST_P(LatticeFilling, ASingleInsertionAtTheWallInsertsTheDeepPartAroundItUnchanged) {
-  const Circumsphere sphere = sphere_at_the_wall();
-  const double smaller = 0.99 * std::sqrt(sphere.squared_radius);
-  const auto field = [=](const Point3& p) { return distance(p, sphere.center) < 1e-6 ? smaller : kSize; };
-  const TetCriteria finer{2, SizeField(field, smaller, kSize)};
-  const TetMesh mesh = finish(finer);
-  const double farthest = distance(farthest_from(sphere.center), sphere.center);
-  ASSERT_GT(farthest, 6 * kSize);
-  ASSERT_TRUE(refinement_->deep().has_value());
-  EXPECT_LT(refinement_->deep()->points.size(), deep_points_.size());
-  EXPECT_GT(refinement_->deep()->points.size(), 0u);
-  for (const Point3& p : refinement_->deep()->points) EXPECT_GT(distance(p, sphere.center), 3 * kSize);
-  EXPECT_EQ(points_kept(mesh), deep_points_.size());
-  expect_promises(mesh, finer.cell_size);
-}
-
-// What was right as long as it was only written down is judged like the rest once it is inserted: here among deep points
-// that the first of them comes with.
-TEST_P(LatticeFilling, TheBoundHoldsAmongDeepPointsOnceTheyAreInserted) {
-  const Circumsphere sphere = sphere_at_the_wall();
-  const Point3 nearest = *std::min_element(
-      deep_points_.begin(), deep_points_.end(),
-      [&](const Point3& a, const Point3& b) { return distance(a, sphere.center) < distance(b, sphere.center); });
-  const Point3 deeper = *std::min_element(deep_points_.begin(), deep_points_.end(), [&](const Point3& a, const Point3& b) {
-    const auto off = [&](const Point3& p) { return std::abs(distance(p, nearest) - 2 * kSize); };
-    return off(a) < off(b);
-  });
-  const auto field = [=](const Point3& p) {
-    return distance(p, sphere.center) < 1e-6 || distance(p, deeper) < kSize ? kSize / 2 : kSize;
-  };
-  const TetCriteria finer{2, SizeField(field, kSize / 2, kSize)};
-  const TetMesh mesh = finish(finer);
-  if (const auto& deep = refinement_->deep()) {
-    EXPECT_EQ(std::count(deep->points.begin(), deep->points.end(), deeper), 0);
-  }
+  EXPECT_GT(mesh.points.size(), 2 * lattice_points_.size());
+  EXPECT_EQ(points_kept(mesh), lattice_points_.size());
   expect_promises(mesh, finer.cell_size);
 }
 

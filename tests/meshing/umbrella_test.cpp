@@ -114,7 +114,7 @@ TEST_P(RandomComplex, PiecesAreTheCellsOfOneLabelThatFacetsJoin) {
 }
 
 TEST_P(RandomComplex, ExtractionGivesTheInsideCellsAndTheirBoundary) {
-  const TetMesh mesh = extract_tets(delaunay_, nullptr);
+  const TetMesh mesh = extract_tets(delaunay_);
   std::size_t inside = 0;
   for (CellId c = 0; c < delaunay_.cell_capacity(); ++c) inside += alive(c) && delaunay_.label(c) != 0;
   EXPECT_EQ(mesh.tets.size(), inside);
