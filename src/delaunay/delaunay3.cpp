@@ -60,6 +60,7 @@ CellId Delaunay3::locate(const Point3& p, CellId hint) const {
   CellId cell = hint, came_from = kNone;
   for (bool moved = true; moved;) {
     moved = false;
+    for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
     for (int i = 0; i < 4 && !moved; ++i) {
       const CellId next = cells_[cell].neighbors[i];
       if (next == came_from || next == kOutside) continue;

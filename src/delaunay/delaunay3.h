@@ -68,6 +68,10 @@ class Delaunay3 {
   /// Some cell at the vertex.
   CellId cell_of(VertexId vertex) const { return vertices_[vertex].cell; }
 
+  /// Tells the processor that a cell's neighbours will be asked for soon.
+  void prefetch_neighbors(CellId cell) const {
+    for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
+  }
   /// The cell that contains p, by a walk from `hint`. pre: p inside the bounds.
   CellId locate(const Point3& p, CellId hint) const;
   /// Cells around a vertex other than a corner, in an order that depends on the triangulation alone.

@@ -127,6 +127,7 @@ std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Poi
   for (int cells = 0; cells < kMostCells && cell != last; ++cells) {
     double left = 1;
     CellId next = kNone;
+    delaunay_.prefetch_neighbors(cell);
     for (int i = 0; i < 4; ++i) {
       const auto v = delaunay_.vertices(FacetId{cell, i});
       const Point3& p = delaunay_.point(v[0]);

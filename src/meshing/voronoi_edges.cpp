@@ -59,9 +59,11 @@ bool Refinement::repair_voronoi_edges(bool again) {
 
 std::vector<Refinement::MisplacedCell> Refinement::excursions_of_all() const {
   constexpr std::size_t kChunk = 4096;
+  constexpr CellId kAhead = 4;
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<MisplacedCell>& misplaced) {
     const Oracle& oracle = *delaunay_.worker().oracle;
     for (auto cell = std::max(static_cast<CellId>(begin), RestrictedDelaunay::kBeyond + 1); cell < end; ++cell) {
+      if (cell + kAhead < end && delaunay_.stamp(cell + kAhead) != 0) delaunay_.prefetch_neighbors(cell + kAhead);
       if (delaunay_.stamp(cell) != 0) add_excursions(cell, kNone, oracle, misplaced);
     }
   };
