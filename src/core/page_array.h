@@ -29,6 +29,7 @@ class PageArray {
   std::size_t size() const { return size_; }
   T& operator[](std::size_t i) { return data_[i]; }
   const T& operator[](std::size_t i) const { return data_[i]; }
+  void prefetch(std::size_t i) const { __builtin_prefetch(data_ + i); }
 
   /// Makes the array at least `size` long. Throws std::bad_alloc. References into it are void afterwards.
   void grow_to(std::size_t size) {

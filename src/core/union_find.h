@@ -36,7 +36,7 @@ class UnionFind {
       if (at(a).compare_exchange_strong(expected, b, std::memory_order_relaxed)) return;
     }
   }
-  void prefetch(std::uint32_t i) const { __builtin_prefetch(&parent_[i]); }
+  void prefetch(std::uint32_t i) const { parent_.prefetch(i); }
   std::size_t set_count() const {
     std::size_t count = 0;
     for (std::size_t i = 0; i < parent_.size(); ++i) count += parent_[i] == i ? 1 : 0;

@@ -60,7 +60,7 @@ CellId Delaunay3::locate(const Point3& p, CellId hint) const {
   CellId cell = hint, came_from = kNone;
   for (bool moved = true; moved;) {
     moved = false;
-    for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
+    prefetch_neighbors(cell);
     for (int i = 0; i < 4 && !moved; ++i) {
       const CellId next = cells_[cell].neighbors[i];
       if (next == came_from || next == kOutside) continue;
@@ -131,7 +131,7 @@ void Delaunay3::find_zone(const Point3& p, CellId start, Star& star, StarSearch&
   const auto add = [&](CellId cell, int facet) {
     star.zone.push(cell);
     search.entered.push(static_cast<std::uint8_t>(facet));
-    for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
+    prefetch_neighbors(cell);
   };
   star.zone.make_room(1);
   search.entered.make_room(1);

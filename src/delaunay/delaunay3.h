@@ -70,7 +70,7 @@ class Delaunay3 {
 
   /// Tells the processor that a cell's neighbours will be asked for soon.
   void prefetch_neighbors(CellId cell) const {
-    for (CellId neighbor : cells_[cell].neighbors) __builtin_prefetch(&cells_[neighbor]);
+    for (CellId neighbor : cells_[cell].neighbors) cells_.prefetch(neighbor);
   }
   /// The cell that contains p, by a walk from `hint`. pre: p inside the bounds.
   CellId locate(const Point3& p, CellId hint) const;

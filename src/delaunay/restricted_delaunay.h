@@ -73,6 +73,10 @@ class RestrictedDelaunay {
     const auto living = std::find_if(created_.begin(), created_.end(), [this](CellId cell) { return stamp(cell) != 0; });
     return living != created_.end() ? *living : cell_of(0);
   }
+  /// As prefetch_neighbors(), of their labels.
+  void prefetch_labels_around(CellId cell) const {
+    for (CellId neighbor : delaunay_.neighbors(cell)) labels_.prefetch(neighbor);
+  }
   void prefetch_neighbors(CellId cell) const { delaunay_.prefetch_neighbors(cell); }
   /// The cell that contains p, by a walk from `hint`.
   CellId locate(const Point3& p, CellId hint) const { return delaunay_.locate(p, hint); }

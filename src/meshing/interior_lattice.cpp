@@ -81,52 +81,29 @@ bool InteriorLattice::find_inside(const RestrictedDelaunay& delaunay, const GoOn
   return true;
 }
 
-/// By the vertices and balls that the surface has got since the last time. True if that blocked any site.
+/// By its vertices and balls. True if that blocked any site.
 bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
-  const std::uint32_t since = std::exchange(blocked_since_, delaunay.next_stamp());
   const auto any_of_chunks = [](std::size_t count, const auto& block) {
     const auto blocked = map_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
-      std::uint8_t any = 0;
+      bool any = false;
       for (auto i = static_cast<std::uint32_t>(begin); i < end; ++i) any |= block(i);
-      return any;
+      return std::uint8_t{any};
     });
     return std::any_of(blocked.begin(), blocked.end(), [](std::uint8_t any) { return any != 0; });
   };
-  if (since == 0) {  // of all vertices there are far fewer than corners of cells
-    const bool any = any_of_chunks(delaunay.vertex_capacity(), [&](VertexId v) {
-      return delaunay.kind(v) == VertexKind::kSurface && block_around(delaunay.point(v), kClearance * cube_);
-    });
-    return any_of_chunks(delaunay.cell_capacity(), [&](CellId c) { return block_near_balls(delaunay, c, since); }) || any;
-  }
-  std::vector<std::uint8_t> met(delaunay.vertex_capacity(), 0);
-  return any_of_chunks(delaunay.cell_capacity(), [&](CellId cell) {
-    if (delaunay.stamp(cell) < since || cell == RestrictedDelaunay::kBeyond) return false;
-    const bool any = block_near_corners(delaunay, cell, met);
-    return block_near_balls(delaunay, cell, since) || any;
+  const bool any = any_of_chunks(delaunay.vertex_capacity(), [&](VertexId v) {
+    return delaunay.kind(v) == VertexKind::kSurface && block_around(delaunay.point(v), kClearance * cube_);
   });
+  return any_of_chunks(delaunay.cell_capacity(), [&](CellId c) { return block_near_balls(delaunay, c); }) || any;
 }
 
-/// By the vertices of a new cell that none before has met.
-bool InteriorLattice::block_near_corners(const RestrictedDelaunay& delaunay, CellId cell,
-                                         std::vector<std::uint8_t>& met) {
+/// Every ball is met from a cell inside, those between two regions from both of theirs.
+bool InteriorLattice::block_near_balls(const RestrictedDelaunay& delaunay, CellId cell) {
   bool any = false;
-  for (VertexId v : delaunay.vertices(cell)) {
-    if (delaunay.kind(v) != VertexKind::kSurface) continue;
-    const std::atomic_ref<std::uint8_t> known(met[v]);
-    if (known.load(std::memory_order_relaxed) != 0 || known.exchange(1, std::memory_order_relaxed) != 0) continue;
-    any |= block_around(delaunay.point(v), kClearance * cube_);
-  }
-  return any;
-}
-
-/// By the balls of a new cell that its neighbours do not see to.
-bool InteriorLattice::block_near_balls(const RestrictedDelaunay& delaunay, CellId cell, std::uint32_t since) {
-  bool any = false;
-  for (int i = 0; i < 4 && delaunay.has_balls(cell); ++i) {
+  if (!delaunay.has_balls(cell) || delaunay.label(cell) == 0) return false;
+  for (int i = 0; i < 4; ++i) {
     const SurfaceBall* ball = delaunay.ball({cell, i});
-    const CellId other = delaunay.neighbors(cell)[i];
-    const bool met_from_there = other < cell && delaunay.stamp(other) >= since;
-    if (ball != nullptr && !met_from_there) any |= block_around(ball->center, std::sqrt(ball->squared_radius));
+    if (ball != nullptr) any |= block_around(ball->center, std::sqrt(ball->squared_radius));
   }
   return any;
 }

@@ -53,8 +53,7 @@ class InteriorLattice {
   bool lay_out(const RestrictedDelaunay& delaunay);
   bool find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on);
   bool block_near_surface(const RestrictedDelaunay& delaunay);
-  bool block_near_corners(const RestrictedDelaunay& delaunay, CellId cell, std::vector<std::uint8_t>& met);
-  bool block_near_balls(const RestrictedDelaunay& delaunay, CellId cell, std::uint32_t since);
+  bool block_near_balls(const RestrictedDelaunay& delaunay, CellId cell);
   bool block_around(const Point3& p, double radius);
   bool block(Site site);
   bool block_removed(const RestrictedDelaunay& delaunay);
@@ -75,7 +74,6 @@ class InteriorLattice {
   std::array<std::int32_t, 3> counts_{};
   std::array<Site, 3> stride_{};
   Site cubes_ = 0;
-  std::uint32_t blocked_since_ = 0;  // stamp of the first cells that block_near_surface() has not seen
   mutable std::vector<std::uint8_t> state_;  // mutable for std::atomic_ref, which takes no const
   std::vector<Site> inside_;      // ascending
   std::vector<Label> labels_;     // of inside_

@@ -8,9 +8,14 @@ namespace delvox {
 
 Pieces::Pieces(const RestrictedDelaunay& delaunay) : joined_(delaunay.cell_capacity()) {
   constexpr CellId kFirst = RestrictedDelaunay::kBeyond + 1;
+  constexpr CellId kAhead = 8;
   constexpr std::size_t kChunk = 1 << 13;
   for_each_chunk(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (auto cell = std::max(static_cast<CellId>(begin), kFirst); cell < end; ++cell) {
+      if (cell + kAhead < end && delaunay.stamp(cell + kAhead) != 0) {
+        delaunay.prefetch_labels_around(cell + kAhead);
+        for (CellId next : delaunay.neighbors(cell + kAhead)) joined_.prefetch(next);
+      }
       if (delaunay.stamp(cell) == 0) continue;
       for (CellId next : delaunay.neighbors(cell)) {
         if (next > cell && delaunay.label(next) == delaunay.label(cell)) joined_.join(cell, next);
