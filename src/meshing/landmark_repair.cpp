@@ -220,7 +220,11 @@ Box3 Refinement::box_of_change(const Star& star) const {
 /// After a change that was not meant for the surface: where new triangles wait, it has changed all the same.
 void Refinement::note_new_facets() {
   if (watch_.empty()) return;
-  for (CellId cell : delaunay_.created()) {
+  constexpr std::size_t kAhead = 8;
+  const std::vector<CellId>& created = delaunay_.created();
+  for (std::size_t n = 0; n < created.size(); ++n) {
+    const CellId cell = created[n];
+    if (n + kAhead < created.size()) delaunay_.prefetch_labels_around(created[n + kAhead]);
     for (int i = 0; i < 4; ++i) {
       if (!delaunay_.bipolar({cell, i}) || delaunay_.ball({cell, i}) != nullptr) continue;
       Box3 box;
