@@ -81,7 +81,7 @@ bool InteriorLattice::find_inside(const RestrictedDelaunay& delaunay, const GoOn
   return true;
 }
 
-/// By its vertices and balls. True if that blocked any site.
+/// By all of its vertices and balls. True if that blocked any site.
 bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
   const auto any_of_chunks = [](std::size_t count, const auto& block) {
     const auto blocked = map_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
@@ -91,10 +91,26 @@ bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
     });
     return std::any_of(blocked.begin(), blocked.end(), [](std::uint8_t any) { return any != 0; });
   };
+  has_blocked_.resize(delaunay.vertex_capacity(), 0);
   const bool any = any_of_chunks(delaunay.vertex_capacity(), [&](VertexId v) {
-    return delaunay.kind(v) == VertexKind::kSurface && block_around(delaunay.point(v), kClearance * cube_);
+    if (delaunay.kind(v) != VertexKind::kSurface) return false;
+    has_blocked_[v] = 1;
+    return block_around(delaunay.point(v), kClearance * cube_);
   });
   return any_of_chunks(delaunay.cell_capacity(), [&](CellId c) { return block_near_balls(delaunay, c); }) || any;
+}
+
+/// By the vertices that the surface has got since, and the balls there: no others change when it gets some.
+bool InteriorLattice::block_near_new_vertices(const RestrictedDelaunay& delaunay) {
+  bool any = false;
+  has_blocked_.resize(delaunay.vertex_capacity(), 0);
+  for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
+    if (delaunay.kind(v) != VertexKind::kSurface || has_blocked_[v] != 0) continue;
+    has_blocked_[v] = 1;
+    any |= block_around(delaunay.point(v), kClearance * cube_);
+    for (CellId cell : delaunay.incident_cells(v)) any |= block_near_balls(delaunay, cell);
+  }
+  return any;
 }
 
 /// Every ball is met from a cell inside, those between two regions from both of theirs.
@@ -215,8 +231,13 @@ std::size_t InteriorLattice::insert_shell(RestrictedDelaunay& delaunay, const Go
 }
 
 bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
-  const bool removed = block_removed(delaunay), nearer = block_near_surface(delaunay);
-  if (!removed && !nearer) return false;
+  // Where sites are gone, balls may have come back that are not what they were.
+  const bool removed = block_removed(delaunay);
+  if (removed) {
+    block_near_surface(delaunay);
+  } else if (!block_near_new_vertices(delaunay)) {
+    return false;
+  }
   for (Site s : inside_) {
     if (state_[s] != kBlocked) state_[s] = kDeep;
   }
