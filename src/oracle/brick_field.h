@@ -39,7 +39,12 @@ class BrickField {
 
   /// Calls visit(brick) for each mixed brick, first index fastest.
   template <class Visit>
-  void for_each_mixed_brick(const Visit& visit) const;
+  void for_each_mixed_brick(const Visit& visit) const {
+    for (int layer = 0; layer < brick_counts_[2]; ++layer) for_each_mixed_brick(layer, visit);
+  }
+  /// As above, for those of one layer along the last index.
+  template <class Visit>
+  void for_each_mixed_brick(int layer, const Visit& visit) const;
 
   /// The eight samples around a cell, bit 0 of the index along x, bit 1 along y, bit 2 along z, if it lies in a mixed
   /// brick.
@@ -102,13 +107,11 @@ class BrickField {
 };
 
 template <class Visit>
-void BrickField::for_each_mixed_brick(const Visit& visit) const {
-  std::array<int, 3> brick;
-  for (brick[2] = 0; brick[2] < brick_counts_[2]; ++brick[2]) {
-    for (brick[1] = 0; brick[1] < brick_counts_[1]; ++brick[1]) {
-      for (brick[0] = 0; brick[0] < brick_counts_[0]; ++brick[0]) {
-        if (state(brick) == State::kMixed) visit(brick);
-      }
+void BrickField::for_each_mixed_brick(int layer, const Visit& visit) const {
+  std::array<int, 3> brick{0, 0, layer};
+  for (brick[1] = 0; brick[1] < brick_counts_[1]; ++brick[1]) {
+    for (brick[0] = 0; brick[0] < brick_counts_[0]; ++brick[0]) {
+      if (state(brick) == State::kMixed) visit(brick);
     }
   }
 }

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/parallel.h"
+
 namespace delvox {
 namespace {
 
@@ -35,24 +37,26 @@ void unite(Number* parent, Number a, Number b) {
   }
 }
 
+/// The pieces of the isosurface in one layer of bricks.
+struct LayerPieces {
+  std::vector<std::uint32_t> in_brick, of_crossing;  ///< as SurfaceComponents has them, pieces for components
+  std::vector<std::uint32_t> parent;                 ///< union-find over the pieces
+  std::vector<SurfaceComponents::Component> extents;
+  std::vector<std::uint32_t> lower, upper;  ///< pieces of the crossed edges in the planes below and above, in one order
+};
+
 /// Joins crossings to pieces within each brick, then pieces across brick faces. A face of the grid, like an edge,
 /// belongs to the brick of its lowest sample; edges that it borrows of the next brick get pieces here as well, which
-/// are handed on to that brick.
-class ComponentFinder {
+/// are handed on to that brick, or, above, to whoever joins layers.
+class LayerFinder {
  public:
-  explicit ComponentFinder(const BrickField& field) : field_(field), level_(field.level()) {
-    const auto& n = field.brick_counts();
+  explicit LayerFinder(const BrickField& field) : field_(field), level_(field.level()) {
     handed_[0].resize(1);
-    handed_[1].resize(static_cast<std::size_t>(n[0]));
-    handed_[2].resize(static_cast<std::size_t>(n[0]) * n[1]);
+    handed_[1].resize(static_cast<std::size_t>(field.brick_counts()[0]));
   }
 
-  SurfaceComponents run(const GoOn& go_on) {
-    field_.for_each_mixed_brick([&](const Index3& brick) {
-      go_on();
-      visit_brick(brick);
-    });
-    number_components();
+  LayerPieces run(int layer) {
+    field_.for_each_mixed_brick(layer, [&](const Index3& brick) { visit_brick(brick); });
     return std::move(result_);
   }
 
@@ -134,20 +138,21 @@ class ComponentFinder {
 
   /// Numbers the pieces of the brick behind those of all bricks before.
   void number_pieces(Local own) {
+    std::vector<std::uint32_t>& pieces = result_.parent;
     for (Local edge = 0; edge < count_; ++edge) {
       const Local root = find_root(parent_.data(), edge);
-      if (root == edge) pieces_.push_back(static_cast<std::uint32_t>(pieces_.size()));
-      piece_of_[edge] = root == edge ? pieces_.back() : piece_of_[root];
+      if (root == edge) pieces.push_back(static_cast<std::uint32_t>(pieces.size()));
+      piece_of_[edge] = root == edge ? pieces.back() : piece_of_[root];
     }
     result_.in_brick.push_back(own);
     result_.of_crossing.insert(result_.of_crossing.end(), piece_of_.begin(), piece_of_.begin() + own);
-    extents_.resize(pieces_.size());
+    result_.extents.resize(pieces.size());
   }
 
   void add_extents(const Index3& brick, const BrickEdges& edges) {
     const std::uint32_t* piece = piece_of_.data();
     for_each_crossed_edge(field_, brick, edges, [&](const CrossedEdge& edge) {
-      SurfaceComponents::Component& extent = extents_[*piece++];
+      SurfaceComponents::Component& extent = result_.extents[*piece++];
       extent.box.extend(edge.point(level_));
       ++extent.crossings;
     });
@@ -155,22 +160,56 @@ class ComponentFinder {
 
   /// Joins the pieces to those that the bricks before found of the same edges, and leaves word for the bricks to come.
   void exchange_planes(const Index3& brick, const BrickEdges& edges) {
-    const std::size_t column = static_cast<std::size_t>(brick[1]) * field_.brick_counts()[0] + brick[0];
-    const std::array<Plane*, 3> planes{&handed_[0][0], &handed_[1][brick[0]], &handed_[2][column]};
-    for (int side = 0; side < 3; ++side) {
+    const std::array<Plane*, 2> planes{&handed_[0][0], &handed_[1][brick[0]]};
+    for (int side = 0; side < 2; ++side) {
       Plane& plane = *planes[side];
       for_each_on_side<false>(edges, side, [&](int axis, int place, int number) {
-        unite(pieces_.data(), piece_of_[edge_at_[axis][place]], plane[number]);
+        unite(result_.parent.data(), piece_of_[edge_at_[axis][place]], plane[number]);
       });
       for_each_on_side<true>(
           edges, side, [&](int axis, int place, int number) { plane[number] = piece_of_[edge_at_[axis][place]]; });
     }
+    for_each_on_side<false>(
+        edges, 2, [&](int axis, int place, int) { result_.lower.push_back(piece_of_[edge_at_[axis][place]]); });
+    for_each_on_side<true>(
+        edges, 2, [&](int axis, int place, int) { result_.upper.push_back(piece_of_[edge_at_[axis][place]]); });
   }
 
-  void number_components() {
-    std::vector<std::uint32_t> number(pieces_.size());
-    for (std::uint32_t piece = 0; piece < pieces_.size(); ++piece) {
-      const std::uint32_t root = find_root(pieces_.data(), piece);
+  const BrickField& field_;
+  double level_;
+  LayerPieces result_;
+
+  // Of the brick under way.
+  Local count_ = 0;
+  std::array<std::array<Local, kBlockSize>, 3> edge_at_{};  // by axis and beginning; read only where crossed
+  std::array<Local, 3 * kBlockSize> parent_{};
+  std::array<std::uint32_t, 3 * kBlockSize> piece_of_{};
+
+  std::array<std::vector<Plane>, 2> handed_;  // across an axis, to the next brick along it
+};
+
+/// Joins the layers' pieces to components.
+class LayerJoiner {
+ public:
+  /// The next layer up.
+  void add(const LayerPieces& layer) {
+    const auto first = static_cast<std::uint32_t>(parent_.size());
+    for (std::uint32_t parent : layer.parent) parent_.push_back(first + parent);
+    for (std::uint32_t piece : layer.of_crossing) result_.of_crossing.push_back(first + piece);
+    result_.in_brick.insert(result_.in_brick.end(), layer.in_brick.begin(), layer.in_brick.end());
+    extents_.insert(extents_.end(), layer.extents.begin(), layer.extents.end());
+    // Of edges in the plane between, which the bricks on both sides have.
+    for (std::size_t edge = 0; edge < layer.lower.size(); ++edge) {
+      unite(parent_.data(), first + layer.lower[edge], below_[edge]);
+    }
+    below_.clear();
+    for (std::uint32_t piece : layer.upper) below_.push_back(first + piece);
+  }
+
+  SurfaceComponents finish() {
+    std::vector<std::uint32_t> number(parent_.size());
+    for (std::uint32_t piece = 0; piece < parent_.size(); ++piece) {
+      const std::uint32_t root = find_root(parent_.data(), piece);
       if (root == piece) {
         number[piece] = static_cast<std::uint32_t>(result_.components.size());
         result_.components.push_back(extents_[piece]);
@@ -185,27 +224,33 @@ class ComponentFinder {
       whole.box.extend(part.box.max);
     }
     for (std::uint32_t& component : result_.of_crossing) component = number[component];
+    return std::move(result_);
   }
 
-  const BrickField& field_;
-  double level_;
+ private:
   SurfaceComponents result_;
-
-  // Of the brick under way.
-  Local count_ = 0;
-  std::array<std::array<Local, kBlockSize>, 3> edge_at_{};  // by axis and beginning; read only where crossed
-  std::array<Local, 3 * kBlockSize> parent_{};
-  std::array<std::uint32_t, 3 * kBlockSize> piece_of_{};
-
-  std::vector<std::uint32_t> pieces_;  // union-find over the pieces of all bricks
+  std::vector<std::uint32_t> parent_;  // union-find over the pieces of all layers
   std::vector<SurfaceComponents::Component> extents_;
-  std::array<std::vector<Plane>, 3> handed_;  // across each axis, to the next brick along it
+  std::vector<std::uint32_t> below_;  // pieces of the crossed edges in the plane above the last layer
 };
 
 }  // namespace
 
 SurfaceComponents find_components(const BrickField& field, const GoOn& go_on) {
-  return ComponentFinder(field).run(go_on);
+  // Few layers at a time where they are large: it is asked between batches, by this thread.
+  constexpr std::size_t kBricksPerBatch = 1 << 15, kFewest = 2, kMost = 8;
+  const auto& counts = field.brick_counts();
+  const auto layers = static_cast<std::size_t>(counts[2]), in_layer = static_cast<std::size_t>(counts[0]) * counts[1];
+  const std::size_t at_a_time = std::clamp(kBricksPerBatch / in_layer, kFewest, kMost);
+  LayerJoiner joiner;
+  for (std::size_t first = 0; first < layers; first += at_a_time) {
+    go_on();
+    const auto batch = map_chunks(std::min(at_a_time, layers - first), 1, [&](std::size_t n, std::size_t) {
+      return LayerFinder(field).run(static_cast<int>(first + n));
+    });
+    for (const LayerPieces& layer : batch) joiner.add(layer);
+  }
+  return joiner.finish();
 }
 
 }  // namespace delvox
