@@ -6,13 +6,20 @@
 #include "delaunay/restricted_delaunay.h"
 
 namespace delvox {
+namespace {
+
+constexpr std::size_t kChunk = 4096;
+
+}  // namespace
 
 /// The points become vertices without cells, the tets' cells are not in use yet.
 void Delaunay3::make_room_for(const KnownTets& known) {
   grow_cells(cell_capacity() + known.count);
   const std::size_t first = vertex_capacity();
   vertices_.grow_to(first + known.points.size());
-  for (std::size_t i = 0; i < known.points.size(); ++i) vertices_[first + i] = {known.points[i], kNone};
+  for_each_chunk(known.points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) vertices_[first + i] = {known.points[i], kNone};
+  });
   vertex_count_ += known.points.size();
 }
 
@@ -42,7 +49,6 @@ void Delaunay3::put_in_place(const KnownTets& known, const WalledRegion& region)
 }
 
 bool RestrictedDelaunay::replace(const KnownTets& known) {
-  constexpr std::size_t kChunk = 4096;
   const std::optional<WalledRegion> region = find_walled_region(delaunay_, known.walls);
   if (!region) return false;
   for (CellId cell : region->cells) {

@@ -35,13 +35,22 @@ std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Poin
   const std::uint32_t first_stamp = delaunay_.next_stamp();
   std::vector<VertexId> vertices = insert_all(points, VertexKind::kInterior, go_on);
   created_ = describe_since(first_stamp);
-  for (CellId cell : created_) {
-    for (int i = 0; i < 4 && balls_.any(cell); ++i) {
-      if (!bipolar({cell, i})) drop_ball({cell, i}, mirror({cell, i}), lane_.balls);
-    }
-  }
+  for (FacetId facet : balls_without_crossing(created_)) drop_ball(facet, mirror(facet), lane_.balls);
   give_back_room();
   return vertices;
+}
+
+/// Of facets of these cells that have a ball though they are not bipolar.
+std::vector<FacetId> RestrictedDelaunay::balls_without_crossing(const std::vector<CellId>& cells) const {
+  constexpr std::size_t kChunk = 4096;
+  return gather_chunks<FacetId>(cells.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
+    for (std::size_t n = begin; n < end; ++n) {
+      for (int i = 0; i < 4 && balls_.any(cells[n]); ++i) {
+        const FacetId facet{cells[n], i};
+        if (ball(facet) != nullptr && !bipolar(facet)) found.push_back(facet);
+      }
+    }
+  });
 }
 
 Label RestrictedDelaunay::label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere,

@@ -144,6 +144,7 @@ class RestrictedDelaunay {
   void keep_ball(FacetId facet, const SurfaceBall& ball, Lane& lane);
 
  private:
+  std::vector<FacetId> balls_without_crossing(const std::vector<CellId>& cells) const;
   Label label_of(const std::array<VertexId, 4>& vertices, const Circumsphere& sphere, const Oracle& oracle) const;
   void grow();
   void set_label(CellId cell, Label label);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/parallel.h"
 #include "delaunay/delaunay3.h"
 
 namespace delvox {
@@ -59,7 +60,24 @@ class WallIndex {
 }  // namespace
 
 std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const std::vector<Wall>& walls) {
+  constexpr std::size_t kChunk = 1 << 14;
+  struct Found {
+    FacetId inside;
+    std::uint32_t wall;
+  };
   const WallIndex index(walls, delaunay.vertex_capacity());
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Found>& found) {
+    for (auto cell = std::max(static_cast<CellId>(begin), Delaunay3::kOutside + 1); cell < end; ++cell) {
+      if (delaunay.stamp(cell) == 0 || !index.may_be_at_wall(delaunay.vertices(cell))) continue;
+      for (int i = 0; i < 4; ++i) {
+        const std::uint32_t wall = index.find(delaunay.vertices(FacetId{cell, i}));
+        if (wall != kNone) found.push_back({{cell, i}, wall});
+      }
+    }
+  };
+  const std::vector<Found> found = gather_chunks<Found>(delaunay.cell_capacity(), kChunk, collect);
+  if (found.size() != walls.size()) return std::nullopt;
+
   WalledRegion region;
   region.outside.resize(walls.size());
   constexpr std::uint8_t kInside = 1 << 4;  // beside a bit for each facet that is a wall
@@ -68,19 +86,11 @@ std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const 
     if ((known[cell] & kInside) == 0) region.cells.push_back(cell);
     known[cell] |= kInside;
   };
-  std::size_t found = 0;
-  for (CellId cell = Delaunay3::kOutside + 1; cell < delaunay.cell_capacity(); ++cell) {
-    if (delaunay.stamp(cell) == 0 || !index.may_be_at_wall(delaunay.vertices(cell))) continue;
-    for (int i = 0; i < 4; ++i) {
-      const std::uint32_t wall = index.find(delaunay.vertices(FacetId{cell, i}));
-      if (wall == kNone) continue;
-      ++found;
-      region.outside[wall] = delaunay.mirror({cell, i});
-      known[cell] |= static_cast<std::uint8_t>(1 << i);
-      add(cell);
-    }
+  for (const auto& [facet, wall] : found) {
+    region.outside[wall] = delaunay.mirror(facet);
+    known[facet.cell] |= static_cast<std::uint8_t>(1 << facet.index);
+    add(facet.cell);
   }
-  if (found != walls.size()) return std::nullopt;
   for (std::size_t next = 0; next < region.cells.size(); ++next) {
     const CellId cell = region.cells[next];
     for (int i = 0; i < 4; ++i) {

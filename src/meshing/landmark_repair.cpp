@@ -220,17 +220,22 @@ Box3 Refinement::box_of_change(const Star& star) const {
 /// After a change that was not meant for the surface: where new triangles wait, it has changed all the same.
 void Refinement::note_new_facets() {
   if (watch_.empty()) return;
-  constexpr std::size_t kAhead = 8;
+  constexpr std::size_t kChunk = 4096, kAhead = 8;
   const std::vector<CellId>& created = delaunay_.created();
-  for (std::size_t n = 0; n < created.size(); ++n) {
-    const CellId cell = created[n];
-    if (n + kAhead < created.size()) delaunay_.prefetch_labels_around(created[n + kAhead]);
-    for (int i = 0; i < 4; ++i) {
-      if (!delaunay_.bipolar({cell, i}) || delaunay_.ball({cell, i}) != nullptr) continue;
-      Box3 box;
-      for (VertexId v : delaunay_.vertices(FacetId{cell, i})) box.extend(delaunay_.point(v));
-      note_change(box, delaunay_.vertices(FacetId{cell, i})[0]);
+  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<FacetId>& waiting) {
+    for (std::size_t n = begin; n < end; ++n) {
+      if (n + kAhead < end) delaunay_.prefetch_labels_around(created[n + kAhead]);
+      for (int i = 0; i < 4; ++i) {
+        const FacetId facet{created[n], i};
+        if (delaunay_.bipolar(facet) && delaunay_.ball(facet) == nullptr) waiting.push_back(facet);
+      }
     }
+  };
+  for (FacetId facet : gather_chunks<FacetId>(created.size(), kChunk, collect)) {
+    const auto corners = delaunay_.vertices(facet);
+    Box3 box;
+    for (VertexId v : corners) box.extend(delaunay_.point(v));
+    note_change(box, corners[0]);
   }
 }
 

@@ -134,8 +134,10 @@ class Refinement {
   void mark_dirty(RefinementLane& lane, FacetId facet) const;
 
   // Surface (surface_refinement.cpp)
-  void enqueue(const std::vector<CellId>& created, RefinementQueues& queues) const;
-  void enqueue_created() { enqueue(delaunay_.created(), queues_); }
+  /// What asks for work in cells that have been created, along with others of which the oldest has that stamp.
+  void enqueue(std::span<const CellId> created, std::uint32_t oldest, RefinementQueues& queues) const;
+  std::uint32_t oldest_stamp(const std::vector<CellId>& created) const;
+  void enqueue_created();
   bool has_interior_vertex(FacetId facet) const;
   void remove_interior_vertex_of(FacetId facet);
   void remove_vertex(VertexId vertex);

@@ -27,6 +27,10 @@ struct RefinementQueues {
 
   std::size_t facets_waiting() const { return facets.size() - next_facet; }
   std::size_t waiting() const { return facets_waiting() + tets.size(); }
+  void append(const RefinementQueues& from) {
+    facets.insert(facets.end(), from.facets.begin() + static_cast<std::ptrdiff_t>(from.next_facet), from.facets.end());
+    tets.insert(tets.end(), from.tets.begin(), from.tets.end());
+  }
   void pop_facet() {
     if (++next_facet < facets.size()) return;
     facets.clear();

@@ -25,11 +25,6 @@ void take_share(const std::vector<T>& all, std::size_t first, std::size_t lane, 
   share.insert(share.end(), at(lane), at(lane + 1));
 }
 
-void append(RefinementQueues& to, const RefinementQueues& from) {
-  take_share(from.facets, from.next_facet, 0, 1, to.facets);
-  take_share(from.tets, 0, 0, 1, to.tets);
-}
-
 /// All that waits in either, in the order that `first` comes out first.
 RefinementQueues joined(const RefinementQueues& first, const RefinementQueues& then) {
   RefinementQueues both;
@@ -107,8 +102,8 @@ void Refinement::run_lanes(RefinementQueues& aside) {
         std::count_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane.queues.waiting() > 0; }));
   }
   for (RefinementLane& lane : lanes_) {
-    append(queues_, std::exchange(lane.queues, {}));
-    append(aside, std::exchange(lane.aside, {}));
+    queues_.append(std::exchange(lane.queues, {}));
+    aside.append(std::exchange(lane.aside, {}));
     collect(lane);
   }
 }
@@ -298,7 +293,7 @@ void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
   if (on_surface && !watch_.empty()) lane.changes.push_back({lane.changing, inserted});
   ++(on_surface ? lane.surface_insertions : lane.interior_insertions);
   const std::size_t first_new = queues.facets.size();
-  enqueue(lane.lane.created, queues);
+  enqueue(lane.lane.created, oldest_stamp(lane.lane.created), queues);
   if (tet_criteria_ != nullptr) judge_new(lane, queues, first_new);
 }
 

@@ -3,6 +3,7 @@
 #include <numbers>
 #include <utility>
 
+#include "core/parallel.h"
 #include "delvox/core/errors.h"
 #include "meshing/refinement.h"
 #include "meshing/surface_verdict.h"
@@ -31,9 +32,7 @@ Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, con
   touching_.min_angle_degrees = std::min(surface_.min_angle_degrees, kHalfRightAngle);
 }
 
-void Refinement::enqueue(const std::vector<CellId>& created, RefinementQueues& queues) const {
-  std::uint32_t oldest = ~std::uint32_t{0};
-  for (CellId cell : created) oldest = std::min(oldest, delaunay_.stamp(cell));
+void Refinement::enqueue(std::span<const CellId> created, std::uint32_t oldest, RefinementQueues& queues) const {
   for (CellId cell : created) {
     const std::uint32_t stamp = delaunay_.stamp(cell);
     if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) queues.tets.push_back({cell, stamp});
@@ -50,6 +49,25 @@ void Refinement::enqueue(const std::vector<CellId>& created, RefinementQueues& q
       if (!met_from_there) queues.facets.push_back({facet, stamp});
     }
   }
+}
+
+std::uint32_t Refinement::oldest_stamp(const std::vector<CellId>& created) const {
+  std::uint32_t oldest = ~std::uint32_t{0};
+  for (CellId cell : created) oldest = std::min(oldest, delaunay_.stamp(cell));
+  return oldest;
+}
+
+void Refinement::enqueue_created() {
+  constexpr std::size_t kChunk = 4096;
+  const std::vector<CellId>& created = delaunay_.created();
+  const std::uint32_t oldest = oldest_stamp(created);
+  if (created.size() <= kChunk) return enqueue(created, oldest, queues_);
+  const auto parts = map_chunks(created.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    RefinementQueues part;
+    enqueue({created.data() + begin, created.data() + end}, oldest, part);
+    return part;
+  });
+  for (const RefinementQueues& part : parts) queues_.append(part);
 }
 
 bool Refinement::has_interior_vertex(FacetId facet) const {
