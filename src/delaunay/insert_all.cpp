@@ -36,6 +36,7 @@ std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& 
   };
   const auto commit_next = [&](Stretch& stretch) {
     if (stretch.next == stretch.end || !holds(stretch.lane)) return;
+    stretch.lane.lost.clear();
     vertices[order.indices[stretch.next++]] = commit_unlabelled(stretch.lane, kind);
   };
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -16,6 +17,7 @@ struct Lane {
   Star star;
   std::uint32_t claim = 0;      ///< greater than all before
   std::vector<CellId> created;  ///< by the last commit
+  std::vector<std::array<VertexId, 3>> lost;  ///< triangles whose balls the last commit dropped
   Delaunay3::Room room;
   SurfaceBalls::Room balls;
 };

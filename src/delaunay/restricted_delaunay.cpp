@@ -179,13 +179,16 @@ void RestrictedDelaunay::give_back_room() {
 }
 
 VertexId RestrictedDelaunay::commit(Lane& lane, VertexKind kind) {
+  lane.lost.clear();
   // A ball on the zone's boundary stays if its centre is still on the shortened dual edge, that is, not in the Voronoi
   // cell of the new vertex, and the edge still bipolar.
   for (const Star::Tet& tet : lane.star.tets) {
     const SurfaceBall* kept = ball(tet.outer);
     if (kept == nullptr) continue;
     const bool covered = squared_distance(kept->center, lane.star.apex) < kept->squared_radius;
-    if (covered || label(tet.outer.cell) == tet.label) drop_ball(tet.outer, mirror(tet.outer), lane.balls);
+    if (!covered && label(tet.outer.cell) != tet.label) continue;
+    lane.lost.push_back(tet.vertices);
+    drop_ball(tet.outer, mirror(tet.outer), lane.balls);
   }
   const VertexId vertex = commit_unlabelled(lane, kind);
   for (std::size_t i = 0; i < lane.created.size(); ++i) set_label(lane.created[i], lane.star.tets[i].label);
@@ -201,7 +204,9 @@ VertexId RestrictedDelaunay::commit_unlabelled(Lane& lane, VertexKind kind) {
     any_balls = true;
     for (int i = 0; i < 4 && balls_.any(cell); ++i) {
       const FacetId facet{cell, i};
-      if (ball(facet) != nullptr && star.in_zone(neighbors(cell)[i])) drop_ball(facet, mirror(facet), lane.balls);
+      if (ball(facet) == nullptr || !star.in_zone(neighbors(cell)[i])) continue;
+      lane.lost.push_back(vertices(facet));
+      drop_ball(facet, mirror(facet), lane.balls);
     }
     balls_.forget(cell, lane.balls);
   }

@@ -111,10 +111,12 @@ class RestrictedDelaunay {
 
   /// What would inserting p do? `hint` is a cell near p. The reference is valid until the next call.
   const Star& evaluate(const Point3& p, CellId hint);
-  /// Inserts the apex of the star evaluated last; created() holds the new cells. pre: !star.duplicate.
+  /// Inserts the apex of the star evaluated last; created() holds the new cells, lost() the triangles whose balls it
+  /// dropped. pre: !star.duplicate.
   VertexId commit(VertexKind kind);
   /// Removes an interior vertex; created() holds the cells that fill the hole.
   void remove(VertexId vertex);
+  const std::vector<std::array<VertexId, 3>>& lost() const { return lane_.lost; }
   /// Cells made by the last insert_seeds, insert_interior, replace, commit or remove.
   const std::vector<CellId>& created() const { return created_; }
 

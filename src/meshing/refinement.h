@@ -131,7 +131,6 @@ class Refinement {
   void conclude(RefinementLane& lane, RefinementQueues& queues);
   void judge_new(RefinementLane& lane, RefinementQueues& queues, std::size_t first);
   void keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant);
-  void mark_dirty(RefinementLane& lane, FacetId facet) const;
 
   // Surface (surface_refinement.cpp)
   /// What asks for work in cells that have been created, along with others of which the oldest has that stamp.
@@ -146,7 +145,7 @@ class Refinement {
   Verdict judge(FacetId facet, const SurfaceBall& ball) const;
   std::optional<VertexId> insert_surface_point(const Point3& p, CellId hint);
   std::optional<VertexId> insert_on_surface(const Point3& p, CellId hint);
-  void mark_dirty(FacetId facet);
+  void mark_dirty(const std::array<VertexId, 3>& triangle);
   void mark_dirty(VertexId vertex);
   bool repair_umbrella(VertexId vertex, bool may_defer);
   bool repair_deferred_umbrellas();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -46,6 +47,9 @@ class VertexList {
     if (listed_[vertex]) return;
     listed_[vertex] = true;
     list_.push_back(vertex);
+  }
+  void add(const std::array<VertexId, 3>& triangle) {
+    for (VertexId vertex : triangle) add(vertex);
   }
   const std::vector<VertexId>& all() const { return list_; }
 

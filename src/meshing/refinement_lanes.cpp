@@ -260,13 +260,9 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
 
 void Refinement::keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant) {
   delaunay_.keep_ball(facet, ball, lane.lane);
-  mark_dirty(lane, facet);
+  lane.dirty.add(delaunay_.vertices(facet));
   lane.too_deviant += too_deviant;
   if (too_deviant) lane.deviant_place = ball.center;
-}
-
-void Refinement::mark_dirty(RefinementLane& lane, FacetId facet) const {
-  for (VertexId vertex : delaunay_.vertices(facet)) lane.dirty.add(vertex);
 }
 
 /// Does what look() has found, as far as the lane holds its claims: what it does not waits on.
@@ -279,16 +275,9 @@ void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
     }
   }
   if (!lane.insertion || !delaunay_.holds(lane.lane)) return;
-  for (CellId cell : lane.lane.star.zone) {
-    for (int i = 0; i < 4 && delaunay_.has_balls(cell); ++i) {
-      if (delaunay_.ball({cell, i}) != nullptr) mark_dirty(lane, {cell, i});
-    }
-  }
-  if (lane.for_facet) {
-    mark_dirty(lane, queues.facets[queues.next_facet].facet);
-    queues.pop_facet();
-  }
+  if (lane.for_facet) queues.pop_facet();
   const VertexId inserted = delaunay_.commit(lane.lane, *lane.insertion);
+  for (const auto& triangle : lane.lane.lost) lane.dirty.add(triangle);
   const bool on_surface = lane.insertion == VertexKind::kSurface;
   if (on_surface && !watch_.empty()) lane.changes.push_back({lane.changing, inserted});
   ++(on_surface ? lane.surface_insertions : lane.interior_insertions);

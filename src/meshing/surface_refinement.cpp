@@ -157,21 +157,16 @@ std::optional<VertexId> Refinement::insert_on_surface(const Point3& p, CellId hi
     stuck_place_ = p;
     return std::nullopt;
   }
-  for (CellId cell : star.zone) {
-    if (!delaunay_.has_balls(cell)) continue;
-    for (int i = 0; i < 4; ++i) {
-      if (delaunay_.ball({cell, i}) != nullptr) mark_dirty({cell, i});
-    }
-  }
   const Box3 changing = watch_.empty() ? Box3{} : box_of_change(star);
   const VertexId inserted = delaunay_.commit(VertexKind::kSurface);
+  for (const auto& triangle : delaunay_.lost()) mark_dirty(triangle);
   if (!watch_.empty()) note_change(changing, inserted);
   enqueue_created();
   return inserted;
 }
 
-void Refinement::mark_dirty(FacetId facet) {
-  for (VertexId vertex : delaunay_.vertices(facet)) mark_dirty(vertex);
+void Refinement::mark_dirty(const std::array<VertexId, 3>& triangle) {
+  for (VertexId vertex : triangle) mark_dirty(vertex);
 }
 
 void Refinement::mark_dirty(VertexId vertex) {
@@ -219,7 +214,7 @@ bool Refinement::repair_umbrella(VertexId vertex, bool may_defer) {
     const SurfaceBall* ball = delaunay_.ball(candidate);
     if (ball == nullptr) {
       // An insertion of this round made the facet: it waits to be judged, and the umbrella for the next round.
-      mark_dirty(candidate);
+      mark_dirty(delaunay_.vertices(candidate));
       return false;
     }
     if (ball->squared_radius <= largest.squared_radius) continue;
