@@ -89,6 +89,7 @@ void Delaunay3::find_incident_cells(VertexId vertex, std::vector<CellId>& around
   const auto add = [&](CellId cell) {
     met.find_or(cell, [&] {
       around.push_back(cell);
+      cells_.prefetch(cell);
       return 1u;
     });
   };

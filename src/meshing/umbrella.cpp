@@ -55,18 +55,21 @@ void for_each_triangle_at(const RestrictedDelaunay& delaunay, VertexId vertex, c
   }
 }
 
-/// The restricted triangles at each vertex, in any order: of their corners, each knows the next at the same vertex.
+/// The restricted triangles at each vertex, in any order: of their corners, each knows the next at the same vertex. Held
+/// by their vertices: to ask the cells again would be to wait for memory.
 class TrianglesAt {
  public:
-  explicit TrianglesAt(const RestrictedDelaunay& delaunay)
-      : delaunay_(delaunay), triangles_(restricted_triangles(delaunay)), first_(delaunay.vertex_capacity(), kNone) {
-    constexpr std::size_t kChunk = 1 << 12;
+  explicit TrianglesAt(const RestrictedDelaunay& delaunay) : first_(delaunay.vertex_capacity(), kNone) {
+    constexpr std::size_t kChunk = 1 << 13;
+    const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Corners>& found) {
+      for_each_restricted_triangle(delaunay, begin, end, [&](FacetId f) { found.push_back(delaunay.vertices(f)); });
+    };
+    triangles_ = gather_chunks<Corners>(delaunay.cell_capacity(), kChunk, collect);
     next_.grow_to(3 * triangles_.size());
     for_each_chunk(triangles_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
-        const auto corners = delaunay_.vertices(triangles_[t]);
         for (std::size_t k = 0; k < 3; ++k) {
-          std::atomic_ref first(first_[corners[k]]);
+          std::atomic_ref first(first_[triangles_[t][k]]);
           next_[3 * t + k] = first.exchange(static_cast<std::uint32_t>(3 * t + k), std::memory_order_relaxed);
         }
       }
@@ -75,13 +78,13 @@ class TrianglesAt {
 
   void find_link(VertexId vertex, std::vector<LinkEdge>& link) const {
     for (std::uint32_t corner = first_[vertex]; corner != kNone; corner = next_[corner]) {
-      link.push_back(opposite(delaunay_.vertices(triangles_[corner / 3]), static_cast<int>(corner % 3)));
+      link.push_back(opposite(triangles_[corner / 3], static_cast<int>(corner % 3)));
     }
   }
 
  private:
-  const RestrictedDelaunay& delaunay_;
-  std::vector<FacetId> triangles_;
+  using Corners = std::array<VertexId, 3>;
+  std::vector<Corners> triangles_;
   std::vector<std::uint32_t> first_;
   PageArray<std::uint32_t> next_;
 };
@@ -100,7 +103,7 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
 }
 
 std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
-  constexpr std::size_t kSweepPays = 8;  // a sweep costs about as much as walking around a vertex in eight
+  constexpr std::size_t kSweepPays = 14;  // a sweep costs about as much as walking around a vertex in so many
   constexpr std::size_t kChunk = 256;
   const auto select = [&](const auto& find_link) {
     return gather_chunks<VertexId>(vertices.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
