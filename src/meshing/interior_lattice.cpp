@@ -100,15 +100,18 @@ bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
   return any_of_chunks(delaunay.cell_capacity(), [&](CellId c) { return block_near_balls(delaunay, c); }) || any;
 }
 
-/// By the vertices that the surface has got since, and the balls there: no others change when it gets some.
-bool InteriorLattice::block_near_new_vertices(const RestrictedDelaunay& delaunay) {
+/// By the vertices and balls of cells made since the shell was inserted.
+bool InteriorLattice::block_near_new_cells(const RestrictedDelaunay& delaunay) {
   bool any = false;
   has_blocked_.resize(delaunay.vertex_capacity(), 0);
-  for (VertexId v = 0; v < delaunay.vertex_capacity(); ++v) {
-    if (delaunay.kind(v) != VertexKind::kSurface || has_blocked_[v] != 0) continue;
-    has_blocked_[v] = 1;
-    any |= block_around(delaunay.point(v), kClearance * cube_);
-    for (CellId cell : delaunay.incident_cells(v)) any |= block_near_balls(delaunay, cell);
+  for (CellId cell = RestrictedDelaunay::kBeyond + 1; cell < delaunay.cell_capacity(); ++cell) {
+    if (delaunay.stamp(cell) < after_shell_) continue;
+    any |= block_near_balls(delaunay, cell);
+    for (VertexId v : delaunay.vertices(cell)) {
+      if (delaunay.kind(v) != VertexKind::kSurface || has_blocked_[v] != 0) continue;
+      has_blocked_[v] = 1;
+      any |= block_around(delaunay.point(v), kClearance * cube_);
+    }
   }
   return any;
 }
@@ -227,17 +230,13 @@ std::size_t InteriorLattice::insert_shell(RestrictedDelaunay& delaunay, const Go
   }
   const std::vector<VertexId> inserted = delaunay.insert_interior(points, go_on);
   for (std::size_t i = 0; i < inserted.size(); ++i) *vertices[i] = inserted[i];
+  after_shell_ = delaunay.next_stamp();
   return inserted.size() - static_cast<std::size_t>(std::count(inserted.begin(), inserted.end(), kNone));
 }
 
 bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
-  // Where sites are gone, balls may have come back that are not what they were.
-  const bool removed = block_removed(delaunay);
-  if (removed) {
-    block_near_surface(delaunay);
-  } else if (!block_near_new_vertices(delaunay)) {
-    return false;
-  }
+  const bool removed = block_removed(delaunay), nearer = block_near_new_cells(delaunay);
+  if (!removed && !nearer) return false;
   for (Site s : inside_) {
     if (state_[s] != kBlocked) state_[s] = kDeep;
   }

@@ -53,7 +53,7 @@ class InteriorLattice {
   bool lay_out(const RestrictedDelaunay& delaunay);
   bool find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on);
   bool block_near_surface(const RestrictedDelaunay& delaunay);
-  bool block_near_new_vertices(const RestrictedDelaunay& delaunay);
+  bool block_near_new_cells(const RestrictedDelaunay& delaunay);
   bool block_near_balls(const RestrictedDelaunay& delaunay, CellId cell);
   bool block_around(const Point3& p, double radius);
   bool block(Site site);
@@ -75,6 +75,7 @@ class InteriorLattice {
   std::array<std::int32_t, 3> counts_{};
   std::array<Site, 3> stride_{};
   Site cubes_ = 0;
+  std::uint32_t after_shell_ = 0;            // the stamp of cells made since, or a smaller one
   std::vector<std::uint8_t> has_blocked_;    // of each vertex: whether the sites near it have been blocked
   mutable std::vector<std::uint8_t> state_;  // mutable for std::atomic_ref, which takes no const
   std::vector<Site> inside_;      // ascending
