@@ -10,6 +10,10 @@ namespace {
 
 using Cube = std::array<std::int64_t, 3>;
 
+/// Of cubes, in spacings. A ball of one spacing meets 7 of them, where it would meet 20 as wide as itself, and there are
+/// few points in each.
+constexpr double kWidth = 2;
+
 Cube cube_of(const Point3& p, double width) {
   return {floor_to_int(p.x / width), floor_to_int(p.y / width), floor_to_int(p.z / width)};
 }
@@ -44,7 +48,7 @@ bool PoissonThinner::has_room(const Point3& p, double spacing) {
     if (squared_distance(last.point, p) < std::min(spacing * spacing, last.squared_spacing)) return false;
   }
   return std::none_of(levels_.begin(), levels_.end(), [&](const Level& level) {
-    return near_kept(level, p, std::min(spacing, level.width));
+    return near_kept(level, p, std::min(spacing, level.width / kWidth));
   });
 }
 
@@ -61,7 +65,7 @@ PoissonThinner::Level& PoissonThinner::level_of(double spacing) {
   if (std::frexp(spacing / usual_, &octave) == 0.5) --octave;  // usual * 2^octave is the least that is not below spacing
   const auto known = std::find_if(levels_.begin(), levels_.end(), [&](const Level& l) { return l.octave == octave; });
   if (known != levels_.end()) return *known;
-  return levels_.emplace_back(Level{octave, std::max(std::ldexp(usual_, octave), spacing), {}, {}});
+  return levels_.emplace_back(Level{octave, kWidth * std::max(std::ldexp(usual_, octave), spacing), {}, {}});
 }
 
 std::uint32_t& PoissonThinner::Level::first_in(const Cube& cube) {
