@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
+#include <vector>
 
 #include "core/hash.h"
 #include "core/parallel.h"
@@ -13,33 +15,70 @@ namespace {
 
 constexpr int kBits = 12;  // per axis: of points nearer to each other than that, any may come first
 
-/// The low 21 bits of x, two free ones between each and the next.
-std::uint64_t spread(std::uint64_t x) {
-  x = (x | x << 32) & 0x001f00000000ffff;
-  x = (x | x << 16) & 0x001f0000ff0000ff;
-  x = (x | x << 8) & 0x100f00f00f00f00f;
-  x = (x | x << 4) & 0x10c30c30c30c30c3;
-  return (x | x << 2) & 0x1249249249249249;
-}
+/// Hilbert's curve through space, level by level (Skilling, "Programming the Hilbert curve", 2004): in each octant of a
+/// cube it runs through the eight smaller ones in the same way, but for a turn of the axes and of their directions. All
+/// turns that occur, and for each octant of each, where it comes and how the curve is turned inside it.
+class HilbertTurns {
+ public:
+  struct Octant {
+    std::uint8_t place, turn;
+  };
 
-/// Where a cell of the 2^kBits grid comes along Hilbert's curve (Skilling, "Programming the Hilbert curve", 2004): the
-/// coordinates are turned, level by level, into those of the curve's own frame. Without branches: which way each would
-/// go is as good as random.
-std::uint64_t hilbert_index(std::array<std::uint32_t, 3> x) {
-  for (int level = kBits - 1; level > 0; --level) {
-    const std::uint32_t below = (1u << level) - 1;
-    for (int axis = 0; axis < 3; ++axis) {
-      const std::uint32_t set = 0 - (x[axis] >> level & 1);  // all ones or all zeros
-      const std::uint32_t swapped = (x[0] ^ x[axis]) & below & ~set;
-      x[0] ^= swapped | (below & set);
-      x[axis] ^= swapped;
+  HilbertTurns() {
+    turns_.push_back({});
+    for (std::size_t turn = 0; turn < turns_.size(); ++turn) {
+      octants_.emplace_back();
+      for (unsigned octant = 0; octant < 8; ++octant) octants_[turn][octant] = enter(turns_[turn], octant);
     }
   }
-  x[1] ^= x[0];
-  x[2] ^= x[1];
-  std::uint32_t parity = x[2] >> 1;  // of the bits above each
-  for (int step = 1; step < kBits; step *= 2) parity ^= parity >> step;
-  return spread(x[0] ^ parity) << 2 | spread(x[1] ^ parity) << 1 | spread(x[2] ^ parity);
+  /// `octant`: a bit for each axis, x highest.
+  Octant operator()(unsigned turn, unsigned octant) const { return octants_[turn][octant]; }
+
+ private:
+  /// The curve's axis i runs along axis[i], downward if that is flipped; gray codes are counted from the other end if odd.
+  struct Turn {
+    std::array<std::uint8_t, 3> axis{0, 1, 2};
+    std::array<bool, 3> flipped{};
+    bool odd = false;
+    bool operator==(const Turn&) const = default;
+  };
+
+  Octant enter(Turn turn, unsigned octant) {
+    std::array<unsigned, 3> bit;
+    for (int i = 0; i < 3; ++i) bit[i] = (octant >> (2 - turn.axis[i]) & 1) ^ turn.flipped[i];
+    const unsigned gray1 = bit[1] ^ bit[0], gray2 = bit[2] ^ gray1, odd = turn.odd;
+    const auto place = static_cast<std::uint8_t>((bit[0] ^ odd) << 2 | (gray1 ^ odd) << 1 | (gray2 ^ odd));
+    for (int i = 0; i < 3; ++i) {
+      if (bit[i] != 0) {
+        turn.flipped[0] = !turn.flipped[0];
+      } else {
+        std::swap(turn.axis[0], turn.axis[i]);
+        std::swap(turn.flipped[0], turn.flipped[i]);
+      }
+    }
+    turn.odd ^= gray2 != 0;
+    const auto known = std::find(turns_.begin(), turns_.end(), turn);
+    const auto number = static_cast<std::uint8_t>(known - turns_.begin());
+    if (known == turns_.end()) turns_.push_back(turn);
+    return {place, number};
+  }
+
+  std::vector<Turn> turns_;
+  std::vector<std::array<Octant, 8>> octants_;
+};
+
+/// Where a cell of the 2^kBits grid comes along the curve.
+std::uint64_t hilbert_index(const std::array<std::uint32_t, 3>& x) {
+  static const HilbertTurns turns;
+  std::uint64_t index = 0;
+  unsigned turn = 0;
+  for (int level = kBits - 1; level >= 0; --level) {
+    const unsigned octant = (x[0] >> level & 1) << 2 | (x[1] >> level & 1) << 1 | (x[2] >> level & 1);
+    const HilbertTurns::Octant at = turns(turn, octant);
+    index = index << 3 | at.place;
+    turn = at.turn;
+  }
+  return index;
 }
 
 /// Rounds go to a quarter in size going back from the last: the last holds three quarters of the points. (Of halves

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 #include "core/parallel.h"
@@ -140,18 +142,22 @@ bool Refinement::look_closer() {
 
 /// Of the surface as it is. pre: every umbrella is a disk.
 SurfaceTopology Refinement::topology() const {
+  constexpr std::size_t kChunk = 1 << 14;
   UnionFind components(delaunay_.vertex_capacity());
-  std::vector<bool> met(delaunay_.vertex_capacity());
-  std::size_t vertices = 0, triangles = 0;
-  for_each_restricted_triangle(delaunay_, 0, delaunay_.cell_capacity(), [&](FacetId facet) {
-    const auto corners = delaunay_.vertices(facet);
-    for (VertexId v : corners) {
-      vertices += !met[v];
-      met[v] = true;
-      components.join(corners[0], v);
-    }
-    ++triangles;
+  std::vector<std::uint8_t> met(delaunay_.vertex_capacity(), 0);
+  const auto counts = map_chunks(delaunay_.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
+    std::size_t triangles = 0;
+    for_each_restricted_triangle(delaunay_, begin, end, [&](FacetId facet) {
+      const auto corners = delaunay_.vertices(facet);
+      for (VertexId v : corners) std::atomic_ref(met[v]).store(1, std::memory_order_relaxed);
+      components.join(corners[0], corners[1]);
+      components.join(corners[0], corners[2]);
+      ++triangles;
+    });
+    return triangles;
   });
+  const auto vertices = static_cast<std::size_t>(std::count(met.begin(), met.end(), 1));
+  const std::size_t triangles = std::accumulate(counts.begin(), counts.end(), std::size_t{0});
   const std::size_t elsewhere = delaunay_.vertex_capacity() - vertices;  // each a set of its own
   // A closed surface has three edges for every two triangles.
   return {components.set_count() - elsewhere, static_cast<long>(vertices) - static_cast<long>(triangles / 2)};
