@@ -68,6 +68,10 @@ class Delaunay3 {
   /// Some cell at the vertex.
   CellId cell_of(VertexId vertex) const { return vertices_[vertex].cell; }
 
+  void prefetch(CellId cell) const {
+    cells_.prefetch(cell);
+    stamps_.prefetch(cell);
+  }
   /// Tells the processor that a cell's neighbours will be asked for soon.
   void prefetch_neighbors(CellId cell) const {
     for (CellId neighbor : cells_[cell].neighbors) cells_.prefetch(neighbor);

@@ -73,6 +73,13 @@ class RestrictedDelaunay {
     const auto living = std::find_if(created_.begin(), created_.end(), [this](CellId cell) { return stamp(cell) != 0; });
     return living != created_.end() ? *living : cell_of(0);
   }
+  /// Tells the processor that a cell, its label and its balls will be asked for soon.
+  void prefetch(CellId cell) const {
+    delaunay_.prefetch(cell);
+    labels_.prefetch(cell);
+    balls_.prefetch(cell);
+  }
+  void prefetch_balls(CellId cell) const { balls_.prefetch_balls(cell); }
   /// As prefetch_neighbors(), of their labels.
   void prefetch_labels_around(CellId cell) const {
     for (CellId neighbor : delaunay_.neighbors(cell)) labels_.prefetch(neighbor);

@@ -40,6 +40,13 @@ class SurfaceBalls {
     free_ = Room();
   }
 
+  void prefetch(CellId cell) const { entries_.prefetch(cell); }
+  /// As prefetch(), of the balls themselves.
+  void prefetch_balls(CellId cell) const {
+    const std::uint32_t entry = entries_[cell];
+    if (entry == kNone) return;
+    entry < kSeveral ? balls_.prefetch(entry / 4) : numbers_.prefetch(entry - kSeveral);
+  }
   bool any(CellId cell) const { return entries_[cell] != kNone; }
   const SurfaceBall* find(FacetId facet) const {
     const std::uint32_t number = number_of(facet);

@@ -97,7 +97,12 @@ bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
     has_blocked_[v] = 1;
     return block_around(delaunay.point(v), kClearance * cube_);
   });
-  return any_of_chunks(delaunay.cell_capacity(), [&](CellId c) { return block_near_balls(delaunay, c); }) || any;
+  constexpr CellId kAhead = 16;
+  const auto cells = static_cast<CellId>(delaunay.cell_capacity());
+  return any_of_chunks(cells, [&](CellId c) {
+           if (c + kAhead < cells) delaunay.prefetch_balls(c + kAhead);
+           return block_near_balls(delaunay, c);
+         }) || any;
 }
 
 /// By the vertices and balls of cells made since the shell was inserted.

@@ -127,6 +127,7 @@ class Refinement {
   void furnish(RefinementLane& lane);
   void collect(RefinementLane& lane);
   void look(RefinementLane& lane, RefinementQueues& queues, bool alone);
+  void prefetch_ahead(const RefinementQueues& queues) const;
   bool look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
   void conclude(RefinementLane& lane, RefinementQueues& queues);
   void judge_new(RefinementLane& lane, RefinementQueues& queues, std::size_t first);

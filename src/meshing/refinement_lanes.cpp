@@ -213,9 +213,19 @@ std::optional<bool> Refinement::leaves_to_features(const RefinementQueues::Waiti
   return true;
 }
 
+/// Asks for the cells of facets that will be looked at soon, then for those beyond.
+void Refinement::prefetch_ahead(const RefinementQueues& queues) const {
+  constexpr std::size_t kCells = 8, kNeighbors = 4;
+  const std::size_t waiting = queues.facets_waiting();
+  const auto cell = [&](std::size_t ahead) { return queues.facets[queues.next_facet + ahead].facet.cell; };
+  if (kCells < waiting) delaunay_.prefetch(cell(kCells));
+  if (kNeighbors < waiting) delaunay_.prefetch_neighbors(cell(kNeighbors));
+}
+
 /// The first facet waiting: leaves the queue, unless something is to be inserted for it. False if the mesh has to change
 /// for it at once, which it must not before the balls judged so far are kept.
 bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
+  prefetch_ahead(queues);
   const auto waiting = queues.facets[queues.next_facet];
   const FacetId facet = waiting.facet;
   const bool may_change = alone && lane.judged.empty();
