@@ -141,6 +141,16 @@ void RestrictedDelaunay::evaluate(const Point3& p, CellId hint, Worker& worker, 
   }
 }
 
+/// What commit() will ask of these cells is asked for now: other lanes come in between.
+void RestrictedDelaunay::claim(const Lane& lane) const {
+  for (CellId cell : lane.star.zone) balls_.prefetch(cell);
+  for (const Star::Tet& tet : lane.star.tets) {
+    balls_.prefetch(tet.outer.cell);
+    labels_.prefetch(tet.outer.cell);
+  }
+  delaunay_.claim(lane.star, lane.claim);
+}
+
 void RestrictedDelaunay::claim(FacetId facet, std::uint32_t claim) const {
   delaunay_.claim(facet.cell, claim);
   delaunay_.claim(neighbors(facet.cell)[facet.index], claim);

@@ -138,7 +138,7 @@ class RestrictedDelaunay {
   static constexpr std::size_t kMostLanes = Delaunay3::kMostClaims;
   std::uint32_t new_claims() { return delaunay_.new_claims(); }
   std::uint32_t new_claim() { return delaunay_.new_claim(); }
-  void claim(const Lane& lane) const { delaunay_.claim(lane.star, lane.claim); }
+  void claim(const Lane& lane) const;
   bool holds(const Lane& lane) const { return delaunay_.holds(lane.star, lane.claim); }
   void claim(FacetId facet, std::uint32_t claim) const;
   bool holds(FacetId facet, std::uint32_t claim) const;

@@ -182,6 +182,8 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
     going = look_at_facet(lane, queues, worker, alone);
   }
   while (lane.judged.empty() && queues.facets_waiting() == 0 && !queues.tets.empty() && !lane.insertion) {
+    constexpr std::size_t kAhead = 4;
+    if (kAhead < queues.tets.size()) delaunay_.prefetch(queues.tets[queues.tets.size() - kAhead - 1].cell);
     look_at_tet(lane, queues, worker, alone);
   }
   for (const auto& judged : lane.judged) delaunay_.claim(judged.waiting.facet, lane.lane.claim);
