@@ -132,6 +132,7 @@ void Delaunay3::find_zone(const Point3& p, CellId start, Star& star, StarSearch&
   const auto add = [&](CellId cell, int facet) {
     star.zone.push(cell);
     search.entered.push(static_cast<std::uint8_t>(facet));
+    claims_.prefetch(cell);
     prefetch_neighbors(cell);
   };
   star.zone.make_room(1);
@@ -159,6 +160,7 @@ void Delaunay3::find_zone(const Point3& p, CellId start, Star& star, StarSearch&
       } else if (SmallMap::Table::number(entry) == kInZone) {
         continue;
       }
+      claims_.prefetch(outer.cell);
       Star::Tet& tet = star.tets.push_raw();
       tet.outer = outer;
       tet.vertices = vertices(inner);
