@@ -68,6 +68,7 @@ class Delaunay3 {
   /// Some cell at the vertex.
   CellId cell_of(VertexId vertex) const { return vertices_[vertex].cell; }
 
+  void prefetch_vertex(VertexId vertex) const { vertices_.prefetch(vertex); }
   void prefetch(CellId cell) const {
     cells_.prefetch(cell);
     stamps_.prefetch(cell);

@@ -79,6 +79,7 @@ class RestrictedDelaunay {
     labels_.prefetch(cell);
     balls_.prefetch(cell);
   }
+  void prefetch_vertex(VertexId vertex) const { delaunay_.prefetch_vertex(vertex); }
   void prefetch_balls(CellId cell) const { balls_.prefetch_balls(cell); }
   /// As prefetch_neighbors(), of their labels.
   void prefetch_labels_around(CellId cell) const {

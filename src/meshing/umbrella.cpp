@@ -104,11 +104,13 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
 
 std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
   constexpr std::size_t kSweepPays = 14;  // a sweep costs about as much as walking around a vertex in so many
-  constexpr std::size_t kChunk = 256;
+  constexpr std::size_t kChunk = 256, kVertices = 8, kCells = 4;
   const auto select = [&](const auto& find_link) {
     return gather_chunks<VertexId>(vertices.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
       std::vector<LinkEdge> link;
       for (std::size_t i = begin; i < end; ++i) {
+        if (i + kVertices < end) delaunay.prefetch_vertex(vertices[i + kVertices]);
+        if (i + kCells < end) delaunay.prefetch(delaunay.cell_of(vertices[i + kCells]));
         link.clear();
         find_link(vertices[i], link);
         if (!is_one_cycle(link)) found.push_back(vertices[i]);
