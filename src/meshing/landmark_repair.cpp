@@ -129,13 +129,15 @@ std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Poi
     CellId next = kNone;
     delaunay_.prefetch_neighbors(cell);
     for (int i = 0; i < 4; ++i) {
+      const CellId beyond = delaunay_.neighbors(cell)[i];
+      if (beyond == came_from) continue;
       const auto v = delaunay_.vertices(FacetId{cell, i});
       const Point3& p = delaunay_.point(v[0]);
       const Vector3 outward = cross(delaunay_.point(v[1]) - p, delaunay_.point(v[2]) - p);
-      const double steepness = dot(outward, ab), t = dot(outward, p - a) / steepness;
-      if (delaunay_.neighbors(cell)[i] == came_from || steepness <= 0 || t >= left) continue;
-      left = t;
-      next = delaunay_.neighbors(cell)[i];
+      const double steepness = dot(outward, ab), way = dot(outward, p - a);
+      if (steepness <= 0 || way >= left * steepness) continue;
+      left = way / steepness;
+      next = beyond;
     }
     if (delaunay_.label(cell) != label) {
       const auto p = crossing_beside(a + (0.5 * (entered + left)) * ab, cell, *delaunay_.worker().oracle);
