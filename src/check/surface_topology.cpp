@@ -140,36 +140,36 @@ void sort_components(SurfaceTopology& result) {
   for (std::uint32_t& component : result.component_of) component = rank[component];
 }
 
-// Triangles filed by their shadows on the plane of y and z, for rays along x.
-class ShadowGrid {
+// Rays along +x, one from a point of each component, filed by where they meet the plane of y and z: there are few of
+// them, and most triangles' shadows meet none.
+class Rays {
  public:
-  ShadowGrid(const std::vector<Point3>& points, std::span<const Triangle> triangles)
-      : points_(points), triangles_(triangles) {
-    for (const Triangle& t : triangles) {
-      for (std::uint32_t v : t) box_.extend(points[v]);
-    }
-    side_ = std::clamp<int>(static_cast<int>(std::sqrt(static_cast<double>(triangles.size()))) / 2, 1, 1024);
+  Rays(const std::vector<Point3>& points, std::span<const Triangle> triangles, const std::vector<std::uint32_t>& starts)
+      : points_(points), triangles_(triangles), starts_(starts), odd_(starts.size(), 0) {
+    for (std::uint32_t start : starts) box_.extend(points[start]);
+    side_ = std::clamp<int>(4 * static_cast<int>(std::sqrt(static_cast<double>(starts.size()))), 1, 1024);
     bins_.resize(static_cast<std::size_t>(side_) * side_);
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) file(t);
+    for (std::uint32_t ray = 0; ray < starts.size(); ++ray) {
+      const Point3& p = points[starts[ray]];
+      bins_[static_cast<std::size_t>(cell(p, 2)) * side_ + cell(p, 1)].push_back(ray);
+    }
   }
 
-  /// Is the number of triangles ahead of p along +x, of components other than `own`, odd?
-  bool odd_ahead(const Point3& p, std::uint32_t own, const std::vector<std::uint32_t>& component_of) const {
-    bool odd = false;
-    for (std::uint32_t t : bins_[static_cast<std::size_t>(cell(p, 2)) * side_ + cell(p, 1)]) {
-      if (component_of[t] != own && in_shadow(t, p) && ahead(t, p)) odd = !odd;
-    }
-    return odd;
+  /// For each component: does an odd number of triangles of others lie ahead of its ray's start?
+  const std::vector<std::uint8_t>& odd_ahead(const std::vector<std::uint32_t>& component_of) {
+    for (std::uint32_t t = 0; t < triangles_.size(); ++t) cross(t, component_of[t]);
+    return odd_;
   }
 
  private:
+  /// Points beside all rays are filed with the nearest.
   int cell(const Point3& p, int axis) const {
     const double extent = box_.max[axis] - box_.min[axis];
     if (!(extent > 0)) return 0;
-    return std::clamp(static_cast<int>(side_ * ((p[axis] - box_.min[axis]) / extent)), 0, side_ - 1);
+    return static_cast<int>(std::clamp(side_ * ((p[axis] - box_.min[axis]) / extent), 0.0, side_ - 1.0));
   }
 
-  void file(std::uint32_t t) {
+  void cross(std::uint32_t t, std::uint32_t component) {
     int low[3], high[3];
     for (int axis : {1, 2}) {
       low[axis] = high[axis] = cell(points_[triangles_[t][0]], axis);
@@ -180,7 +180,10 @@ class ShadowGrid {
     }
     for (int row = low[2]; row <= high[2]; ++row) {
       for (int column = low[1]; column <= high[1]; ++column) {
-        bins_[static_cast<std::size_t>(row) * side_ + column].push_back(t);
+        for (std::uint32_t ray : bins_[static_cast<std::size_t>(row) * side_ + column]) {
+          const Point3& p = points_[starts_[ray]];
+          if (ray != component && in_shadow(t, p) && ahead(t, p)) odd_[ray] ^= 1;
+        }
       }
     }
   }
@@ -205,6 +208,8 @@ class ShadowGrid {
 
   const std::vector<Point3>& points_;
   std::span<const Triangle> triangles_;
+  const std::vector<std::uint32_t>& starts_;
+  std::vector<std::uint8_t> odd_;
   Box3 box_;
   int side_ = 1;
   std::vector<std::vector<std::uint32_t>> bins_;
@@ -244,11 +249,11 @@ Tally wrongly_oriented_components(const std::vector<Point3>& points, std::span<c
     if (topology.components[0].volume_mm3 <= 0) wrong.add(points[foremost[0]]);
     return wrong;
   }
-  const ShadowGrid grid(points, triangles);
+  Rays rays(points, triangles, foremost);
+  const std::vector<std::uint8_t>& is_cavity = rays.odd_ahead(topology.component_of);
   for (std::uint32_t c = 0; c < count; ++c) {
-    const bool is_cavity = grid.odd_ahead(points[foremost[c]], c, topology.component_of);
     const double volume = topology.components[c].volume_mm3;
-    if (is_cavity ? volume >= 0 : volume <= 0) wrong.add(points[foremost[c]]);
+    if (is_cavity[c] != 0 ? volume >= 0 : volume <= 0) wrong.add(points[foremost[c]]);
   }
   return wrong;
 }

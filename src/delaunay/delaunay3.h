@@ -132,7 +132,8 @@ class Delaunay3 {
 
   /// First: numbers for their points and cells.
   void make_room_for(const KnownTets& known);
-  /// Then each, beside others. `first_vertex`: of the numbers that their points have got. `stamp`: greater than all before.
+  /// Then each, beside others. `first_vertex`: of the numbers that their points have got; `stamp`: greater than all
+  /// before.
   void set_known(CellId cell, const KnownTets::Tet& tet, VertexId first_vertex, std::uint32_t stamp);
   /// Then all of them take the place of the region that find_walled_region() found before.
   void put_in_place(const KnownTets& known, const WalledRegion& region);

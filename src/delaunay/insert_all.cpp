@@ -36,7 +36,6 @@ std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& 
   };
   const auto commit_next = [&](Stretch& stretch) {
     if (stretch.next == stretch.end || !holds(stretch.lane)) return;
-    stretch.lane.lost.clear();
     vertices[order.indices[stretch.next++]] = commit_unlabelled(stretch.lane, kind);
   };
 
@@ -66,7 +65,11 @@ std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& 
     }
     begin = round_end;
   }
-  for (Stretch& stretch : stretches) clear_out(stretch.lane);
+  lane_.lost.clear();
+  for (Stretch& stretch : stretches) {
+    lane_.lost.insert(lane_.lost.end(), stretch.lane.lost.begin(), stretch.lane.lost.end());
+    clear_out(stretch.lane);
+  }
   return vertices;
 }
 

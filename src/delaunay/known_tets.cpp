@@ -1,6 +1,7 @@
 #include "delaunay/known_tets.h"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/parallel.h"
 #include "delaunay/restricted_delaunay.h"
@@ -51,8 +52,9 @@ void Delaunay3::put_in_place(const KnownTets& known, const WalledRegion& region)
 bool RestrictedDelaunay::replace(const KnownTets& known) {
   const std::optional<WalledRegion> region = find_walled_region(delaunay_, known.walls);
   if (!region) return false;
+  lane_.lost.clear();
   for (CellId cell : region->cells) {
-    for (int i = 0; i < 4 && balls_.any(cell); ++i) drop_ball({cell, i}, mirror({cell, i}), lane_.balls);
+    for (int i = 0; i < 4 && balls_.any(cell); ++i) lose_ball({cell, i}, lane_);
   }
   const auto first_cell = static_cast<CellId>(cell_capacity());
   const auto first_vertex = static_cast<VertexId>(vertex_capacity());

@@ -17,7 +17,7 @@ struct Lane {
   Star star;
   std::uint32_t claim = 0;      ///< greater than all before
   std::vector<CellId> created;  ///< by the last commit
-  std::vector<std::array<VertexId, 3>> lost;  ///< triangles whose balls the last commit dropped
+  std::vector<std::array<VertexId, 3>> lost;  ///< triangles whose balls were dropped since it was last cleared
   Delaunay3::Room room;
   SurfaceBalls::Room balls;
 };

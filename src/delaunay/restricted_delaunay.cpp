@@ -35,7 +35,7 @@ std::vector<VertexId> RestrictedDelaunay::insert_interior(const std::vector<Poin
   const std::uint32_t first_stamp = delaunay_.next_stamp();
   std::vector<VertexId> vertices = insert_all(points, VertexKind::kInterior, go_on);
   created_ = describe_since(first_stamp);
-  for (FacetId facet : balls_without_crossing(created_)) drop_ball(facet, mirror(facet), lane_.balls);
+  for (FacetId facet : balls_without_crossing(created_)) lose_ball(facet, lane_);
   give_back_room();
   return vertices;
 }
@@ -120,12 +120,14 @@ void RestrictedDelaunay::keep_ball(FacetId facet, const SurfaceBall& ball, Lane&
   balls_.set(mirror(facet), number, lane.balls);
 }
 
-void RestrictedDelaunay::drop_ball(FacetId facet, FacetId other, SurfaceBalls::Room& room) {
+/// If the facet has a ball, or still has it: of each, both sides may be met.
+void RestrictedDelaunay::lose_ball(FacetId facet, Lane& lane) {
   const std::uint32_t number = balls_.number_of(facet);
   if (number == kNone) return;
-  balls_.free(number, room);
-  balls_.set(facet, kNone, room);
-  balls_.set(other, kNone, room);
+  lane.lost.push_back(vertices(facet));
+  balls_.free(number, lane.balls);
+  balls_.set(facet, kNone, lane.balls);
+  balls_.set(mirror(facet), kNone, lane.balls);
 }
 
 const Star& RestrictedDelaunay::evaluate(const Point3& p, CellId hint) {
@@ -196,9 +198,11 @@ VertexId RestrictedDelaunay::commit(Lane& lane, VertexKind kind) {
     const SurfaceBall* kept = ball(tet.outer);
     if (kept == nullptr) continue;
     const bool covered = squared_distance(kept->center, lane.star.apex) < kept->squared_radius;
-    if (!covered && label(tet.outer.cell) != tet.label) continue;
-    lane.lost.push_back(tet.vertices);
-    drop_ball(tet.outer, mirror(tet.outer), lane.balls);
+    if (covered || label(tet.outer.cell) == tet.label) {
+      lose_ball(tet.outer, lane);
+    } else if (!bipolar(tet.outer)) {
+      lane.lost.push_back(vertices(tet.outer));  // it becomes so, and had the ball as one of Del|Sigma
+    }
   }
   const VertexId vertex = commit_unlabelled(lane, kind);
   for (std::size_t i = 0; i < lane.created.size(); ++i) set_label(lane.created[i], lane.star.tets[i].label);
@@ -214,9 +218,7 @@ VertexId RestrictedDelaunay::commit_unlabelled(Lane& lane, VertexKind kind) {
     any_balls = true;
     for (int i = 0; i < 4 && balls_.any(cell); ++i) {
       const FacetId facet{cell, i};
-      if (ball(facet) == nullptr || !star.in_zone(neighbors(cell)[i])) continue;
-      lane.lost.push_back(vertices(facet));
-      drop_ball(facet, mirror(facet), lane.balls);
+      if (ball(facet) != nullptr && star.in_zone(neighbors(cell)[i])) lose_ball(facet, lane);
     }
     balls_.forget(cell, lane.balls);
   }
@@ -229,8 +231,9 @@ VertexId RestrictedDelaunay::commit_unlabelled(Lane& lane, VertexKind kind) {
 }
 
 void RestrictedDelaunay::remove(VertexId vertex) {
+  lane_.lost.clear();
   for (CellId cell : incident_cells(vertex)) {
-    for (int i = 0; i < 4; ++i) drop_ball({cell, i}, mirror({cell, i}), lane_.balls);
+    for (int i = 0; i < 4; ++i) lose_ball({cell, i}, lane_);
   }
   delaunay_.remove(vertex, destroyed_, created_);
   kinds_[vertex] = VertexKind::kRemoved;

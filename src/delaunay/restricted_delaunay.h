@@ -41,8 +41,9 @@ class RestrictedDelaunay {
   /// points not inserted; created() holds all cells made.
   std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const GoOn& go_on);
 
-  /// Puts tets inside the domain that are known in place of what their walls enclose; created() holds those at walls. False, and
-  /// nothing is changed, if one of the walls is no facet.
+  /// Puts tets inside the domain that are known in place of what their walls enclose; created() holds those at walls: facets between two of
+  /// them are taken not to be bipolar.
+  /// False, and nothing is changed, if one of the walls is no facet.
   bool replace(const KnownTets& known);
 
   std::size_t cell_capacity() const { return delaunay_.cell_capacity(); }
@@ -119,11 +120,12 @@ class RestrictedDelaunay {
 
   /// What would inserting p do? `hint` is a cell near p. The reference is valid until the next call.
   const Star& evaluate(const Point3& p, CellId hint);
-  /// Inserts the apex of the star evaluated last; created() holds the new cells, lost() the triangles whose balls it
-  /// dropped. pre: !star.duplicate.
+  /// Inserts the apex of the star evaluated last; created() holds the new cells. pre: !star.duplicate.
   VertexId commit(VertexKind kind);
   /// Removes an interior vertex; created() holds the cells that fill the hole.
   void remove(VertexId vertex);
+  /// Triangles whose balls the last insert_interior, replace, commit or remove dropped, or that became bipolar with
+  /// the ball they had.
   const std::vector<std::array<VertexId, 3>>& lost() const { return lane_.lost; }
   /// Cells made by the last insert_seeds, insert_interior, replace, commit or remove.
   const std::vector<CellId>& created() const { return created_; }
@@ -163,7 +165,7 @@ class RestrictedDelaunay {
   std::vector<CellId> describe_since(std::uint32_t first_stamp);
   std::vector<VertexId> insert_all(const std::vector<Point3>& points, VertexKind kind, const GoOn& go_on);
   VertexId commit_unlabelled(Lane& lane, VertexKind kind);
-  void drop_ball(FacetId facet, FacetId other, SurfaceBalls::Room& room);
+  void lose_ball(FacetId facet, Lane& lane);
 
   const Oracle& oracle_;
   mutable PerThread<Worker> workers_;

@@ -35,7 +35,7 @@ class HilbertTurns {
   Octant operator()(unsigned turn, unsigned octant) const { return octants_[turn][octant]; }
 
  private:
-  /// The curve's axis i runs along axis[i], downward if that is flipped; gray codes are counted from the other end if odd.
+  /// The curve's axis i runs along axis[i], downward if flipped; if odd, gray codes are counted from their other end.
   struct Turn {
     std::array<std::uint8_t, 3> axis{0, 1, 2};
     std::array<bool, 3> flipped{};

@@ -117,8 +117,7 @@ SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay, const std::vecto
   return mesh;
 }
 
-TetMesh extract_tets(const RestrictedDelaunay& delaunay, 
-                     const std::vector<std::array<VertexId, 2>>& features) {
+TetMesh extract_tets(const RestrictedDelaunay& delaunay, const std::vector<std::array<VertexId, 2>>& features) {
   TetMesh mesh;
   Numbering number(delaunay);
   const std::vector<std::size_t> first = use_inside(delaunay, number);

@@ -14,7 +14,6 @@ SurfaceMesh extract_surface(const RestrictedDelaunay& delaunay,
                             const std::vector<std::array<VertexId, 2>>& features = {});
 
 /// The cells with a label other than 0, the triangles between them and the outside, and the vertices they use.
-TetMesh extract_tets(const RestrictedDelaunay& delaunay, 
-                     const std::vector<std::array<VertexId, 2>>& features = {});
+TetMesh extract_tets(const RestrictedDelaunay& delaunay, const std::vector<std::array<VertexId, 2>>& features = {});
 
 }  // namespace delvox

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
-#include <stdexcept>
 #include <utility>
 
 #include "core/hash.h"
@@ -184,13 +183,13 @@ Point3 InteriorLattice::point(Site site) const {
 /// Is one of the 14 sites around it, with which it shares tets, blocked or outside?
 bool InteriorLattice::touches_blocked(Site site) const {
   for (Site step : stride_) {
-    if (state_[site - step] == kBlocked || state_[site + step] == kBlocked) return true;
+    if (state_of(site - step) == kBlocked || state_of(site + step) == kBlocked) return true;
   }
   // The other kind's sites around a centre are its cube's corners, those around a corner lie the other way.
   const Site low = is_centre(site) ? site - cubes_ : site + cubes_ - stride_[0] - stride_[1] - stride_[2];
   for (int corner = 0; corner < 8; ++corner) {
     const Site other = low + (corner & 1) * stride_[0] + (corner >> 1 & 1) * stride_[1] + (corner >> 2) * stride_[2];
-    if (state_[other] == kBlocked) return true;
+    if (state_of(other) == kBlocked) return true;
   }
   return false;
 }
@@ -199,7 +198,8 @@ void InteriorLattice::find_depths() {
   for_each_chunk(inside_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::uint8_t& state = state_[inside_[i]];
-      if (state != kBlocked && touches_blocked(inside_[i])) std::atomic_ref(state).store(kShell, std::memory_order_relaxed);
+      if (state != kDeep || !touches_blocked(inside_[i])) continue;
+      std::atomic_ref(state).store(kShell, std::memory_order_relaxed);  // others only ask whether it is blocked
     }
   });
   std::vector<ShellSite> known;
@@ -218,7 +218,7 @@ void InteriorLattice::find_depths() {
 bool InteriorLattice::block_removed(const RestrictedDelaunay& delaunay) {
   bool any = false;
   for (const ShellSite& shell : shell_) {
-    const bool gone = delaunay.kind(shell.vertex) != VertexKind::kInterior;
+    const bool gone = shell.vertex == kNone || delaunay.kind(shell.vertex) != VertexKind::kInterior;
     if (gone) state_[shell.site] = kBlocked;
     any |= gone;
   }
@@ -268,8 +268,8 @@ void InteriorLattice::add_deep(RestrictedDelaunay& delaunay) const {
   for_each_chunk(deep_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) known.points[i] = point(deep_[i]);
   });
-  // Their spheres are empty, so that their faces are facets whatever else there is.
-  if (!delaunay.replace(known)) throw std::logic_error("a face of the interior lattice is no facet");
+  // Their spheres are empty, so that the walls are facets whatever else there is; if not, there is nothing to rely on.
+  if (!delaunay.replace(known)) delaunay.insert_interior(known.points, always_go_on);
 }
 
 }  // namespace delvox

@@ -34,14 +34,14 @@ class InteriorLattice {
 
   /// All of them; nothing but their number is known until find_depths().
   std::size_t site_count() const { return inside_.size(); }
-  /// Which sites are shell, which deep. To be called once, before any of the following.
+  /// Which sites are shell, which deep. To be called once, before any of the following: adapt() does so itself.
   void find_depths();
   Point3 point(Site site) const;
   std::vector<ShellSite>& shell() { return shell_; }
   /// Inserts those of the shell that have no vertex yet, until go_on() says to end; how many were.
   std::size_t insert_shell(RestrictedDelaunay& delaunay, const GoOn& go_on);
-  /// Blocks the sites whose vertices are gone and those near vertices that the surface has got since, and moves the
-  /// shell inward there. False if there is none.
+  /// Blocks the sites whose vertices are gone and those near surface vertices and balls of cells made since the shell was
+  /// inserted, and moves the shell inward there. False if there is none.
   bool adapt(const RestrictedDelaunay& delaunay);
   const std::vector<Site>& deep() const { return deep_; }
   /// Adds the deep sites and their tets to the triangulation. pre: all of shell() have their vertices.

@@ -16,12 +16,14 @@ void Refinement::fill_interior(const TetCriteria& criteria) {
   } while (lattice.adapt(delaunay_));
   lattice.add_deep(delaunay_);
   report_.interior_insertions += lattice.deep().size();
+  mark_lost_dirty();
   note_new_facets();
   enqueue_created();
 }
 
 void Refinement::insert_shell(InteriorLattice& lattice) {
   report_.interior_insertions += lattice.insert_shell(delaunay_, [this] { return budget_left(); });
+  mark_lost_dirty();
   note_new_facets();
   enqueue_created();
 }

@@ -134,7 +134,8 @@ class Refinement {
   void keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ball, bool too_deviant);
 
   // Surface (surface_refinement.cpp)
-  /// What asks for work in cells that have been created, along with others of which the oldest has that stamp.
+  /// What asks for work in cells that have been created, along with others of which the oldest has that stamp. Asked by
+  /// several threads.
   void enqueue(std::span<const CellId> created, std::uint32_t oldest, RefinementQueues& queues) const;
   std::uint32_t oldest_stamp(const std::vector<CellId>& created) const;
   void enqueue_created();
@@ -148,6 +149,8 @@ class Refinement {
   std::optional<VertexId> insert_on_surface(const Point3& p, CellId hint);
   void mark_dirty(const std::array<VertexId, 3>& triangle);
   void mark_dirty(VertexId vertex);
+  /// Umbrellas change only where triangles lose their balls or get new ones.
+  void mark_lost_dirty();
   bool repair_umbrella(VertexId vertex, bool may_defer);
   bool repair_deferred_umbrellas();
 

@@ -51,6 +51,10 @@ class VertexList {
   void add(const std::array<VertexId, 3>& triangle) {
     for (VertexId vertex : triangle) add(vertex);
   }
+  void clear() {
+    for (VertexId vertex : list_) listed_[vertex] = false;
+    list_.clear();
+  }
   const std::vector<VertexId>& all() const { return list_; }
 
  private:

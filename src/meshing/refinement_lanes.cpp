@@ -153,7 +153,7 @@ void Refinement::collect(RefinementLane& lane) {
   stuck_ += std::exchange(lane.stuck, 0);
   two_faced_.insert(two_faced_.end(), lane.two_faced.begin(), lane.two_faced.end());
   lane.two_faced.clear();
-  lane.dirty = {};
+  lane.dirty.clear();
   lane.changes = {};
   delaunay_.clear_out(lane.lane);
 }
@@ -287,7 +287,10 @@ void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
     }
   }
   if (!lane.insertion || !delaunay_.holds(lane.lane)) return;
-  if (lane.for_facet) queues.pop_facet();
+  if (lane.for_facet) {
+    lane.dirty.add(delaunay_.vertices(queues.facets[queues.next_facet].facet));  // it may be known without its ball
+    queues.pop_facet();
+  }
   const VertexId inserted = delaunay_.commit(lane.lane, *lane.insertion);
   for (const auto& triangle : lane.lane.lost) lane.dirty.add(triangle);
   const bool on_surface = lane.insertion == VertexKind::kSurface;

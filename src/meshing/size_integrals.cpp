@@ -16,7 +16,8 @@ constexpr double kFacing = 0.5;
 /// No part is thinner than half a voxel, patches with surface being four voxels wide.
 constexpr double kVoxelsPerPatch = 4, kLeastThickness = 0.5 / kVoxelsPerPatch;
 
-/// Depth below which an interior lattice is not inserted, in cell sizes: a shell of five or six layers of sites.
+/// Depth, in cell sizes, below which cells are lattice tets that cost next to no time: the tets that refinement leaves
+/// and the shell lie above.
 constexpr double kShellDepth = 5;
 
 /// What several patches hold, and the sizes wanted there; a cell size of 0 is none.

@@ -90,6 +90,7 @@ void Refinement::remove_interior_vertex_of(FacetId facet) {
 void Refinement::remove_vertex(VertexId vertex) {
   const bool on_surface = delaunay_.kind(vertex) == VertexKind::kSurface;
   delaunay_.remove(vertex);
+  mark_lost_dirty();
   note_new_facets();
   for (CellId cell : delaunay_.created()) {
     const auto& corners = delaunay_.vertices(cell);
@@ -162,7 +163,7 @@ std::optional<VertexId> Refinement::insert_on_surface(const Point3& p, CellId hi
   }
   const Box3 changing = watch_.empty() ? Box3{} : box_of_change(star);
   const VertexId inserted = delaunay_.commit(VertexKind::kSurface);
-  for (const auto& triangle : delaunay_.lost()) mark_dirty(triangle);
+  mark_lost_dirty();
   if (!watch_.empty()) note_change(changing, inserted);
   enqueue_created();
   return inserted;
@@ -170,6 +171,10 @@ std::optional<VertexId> Refinement::insert_on_surface(const Point3& p, CellId hi
 
 void Refinement::mark_dirty(const std::array<VertexId, 3>& triangle) {
   for (VertexId vertex : triangle) mark_dirty(vertex);
+}
+
+void Refinement::mark_lost_dirty() {
+  for (const auto& triangle : delaunay_.lost()) mark_dirty(triangle);
 }
 
 void Refinement::mark_dirty(VertexId vertex) {
@@ -240,6 +245,7 @@ bool Refinement::repair_umbrella(VertexId vertex, bool may_defer) {
     unrepaired_.push_back(vertex);
     return false;
   }
+  mark_dirty(vertex);  // a segment may have been split instead
   ++report_.topology_insertions;
   return true;
 }

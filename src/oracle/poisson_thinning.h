@@ -39,10 +39,10 @@ class PoissonThinner {
   /// take a fraction of the memory, and of the waiting for it, that hashing cube by cube takes.
   static constexpr int kBlock = 4;
   using Block = std::array<std::uint32_t, kBlock * kBlock * kBlock>;
-  /// Kept points whose spacings are within one octave, in cubes as wide as the widest of them.
+  /// Kept points whose spacings are within one octave, in cubes twice as wide as the widest of them.
   struct Level {
     int octave;
-    double width;
+    double width;  // of cubes
     FlatHash number;  // of a block
     std::vector<Block> blocks;
 

@@ -1,6 +1,7 @@
 #include "oracle/surface_crossings.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "core/parallel.h"
 
@@ -199,6 +200,7 @@ class LayerJoiner {
     result_.in_brick.insert(result_.in_brick.end(), layer.in_brick.begin(), layer.in_brick.end());
     extents_.insert(extents_.end(), layer.extents.begin(), layer.extents.end());
     // Of edges in the plane between, which the bricks on both sides have.
+    assert(layer.lower.size() == below_.size());
     for (std::size_t edge = 0; edge < layer.lower.size(); ++edge) {
       unite(parent_.data(), first + layer.lower[edge], below_[edge]);
     }
@@ -244,11 +246,13 @@ SurfaceComponents find_components(const BrickField& field, const GoOn& go_on) {
   const std::size_t at_a_time = std::clamp(kBricksPerBatch / in_layer, kFewest, kMost);
   LayerJoiner joiner;
   for (std::size_t first = 0; first < layers; first += at_a_time) {
-    go_on();
     const auto batch = map_chunks(std::min(at_a_time, layers - first), 1, [&](std::size_t n, std::size_t) {
       return LayerFinder(field).run(static_cast<int>(first + n));
     });
-    for (const LayerPieces& layer : batch) joiner.add(layer);
+    for (const LayerPieces& layer : batch) {
+      for (std::size_t brick = 0; brick < layer.in_brick.size(); ++brick) go_on();
+      joiner.add(layer);
+    }
   }
   return joiner.finish();
 }

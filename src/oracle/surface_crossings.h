@@ -55,7 +55,7 @@ struct SurfaceComponents {
 
 /// The surface component of each crossed grid edge: two crossings are joined if a curve of the isosurface on a grid face
 /// connects them (face decider of Nielson and Hamann 1991 where four edges are crossed). Sheets that meet only by a
-/// tunnel inside a cell count as two. `go_on` is asked now and then; its answer is not heeded, but it may throw.
+/// tunnel inside a cell count as two. `go_on` is asked once a brick, by the calling thread; its answer is not heeded, but it may throw.
 SurfaceComponents find_components(const BrickField& field, const GoOn& go_on);
 
 }  // namespace delvox

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -376,6 +377,48 @@ TEST(RestrictedDelaunay, ABallIsTheSameFromBothSidesAndSharedByThem) {
     }
   }
   EXPECT_GT(tested, 50);
+}
+
+/// The triangles that have a ball, each from the smallest vertex on, however it is turned.
+std::set<std::array<VertexId, 3>> triangles_with_balls(const RestrictedDelaunay& delaunay) {
+  std::set<std::array<VertexId, 3>> triangles;
+  test::for_each_cell(delaunay, [&](CellId cell) {
+    for (int i = 0; i < 4; ++i) {
+      if (delaunay.ball({cell, i}) == nullptr) continue;
+      auto triangle = delaunay.vertices(FacetId{cell, i});
+      std::sort(triangle.begin(), triangle.end());
+      triangles.insert(triangle);
+    }
+  });
+  return triangles;
+}
+
+// Umbrellas are looked at again where these were, and where new balls come to be.
+TEST_P(RestrictedDelaunaySuite, LostAreTheTrianglesWhoseBallsAnInsertionDropped) {
+  const auto oracle = two_balls();
+  RestrictedDelaunay delaunay(*oracle);
+  Random random(4);
+  delaunay.insert_seeds({GetParam().next(random), {0.8, 0.7, 0.6}});
+  std::size_t lost_in_all = 0, kept_in_all = 0;
+  for (int n = 0; n < 150; ++n) {
+    if (delaunay.evaluate(GetParam().next(random), delaunay.some_cell()).duplicate) continue;
+    test::compute_all_balls(delaunay);
+    const auto before = triangles_with_balls(delaunay);
+    delaunay.commit(VertexKind::kSurface);
+    const auto after = triangles_with_balls(delaunay);
+    std::set<std::array<VertexId, 3>> gone, lost;
+    std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::inserter(gone, gone.end()));
+    for (auto triangle : delaunay.lost()) {
+      std::sort(triangle.begin(), triangle.end());
+      lost.insert(triangle);
+    }
+    EXPECT_EQ(lost, gone);
+    EXPECT_EQ(lost.size(), delaunay.lost().size()) << "each once";
+    lost_in_all += lost.size();
+    kept_in_all += after.size();
+  }
+  EXPECT_GT(lost_in_all, 20u);
+  EXPECT_GT(kept_in_all, 20u);
 }
 
 }  // namespace
