@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "oracle/brick_edges.h"
 #include "volume/block_sides.h"
 
 namespace delvox {
@@ -64,8 +65,12 @@ BrickField::BrickField(const Volume& volume, const LevelSet& level_set) : level_
     if (entry >= 0) entry = blocks++;
   }
   blocks_.grow_to(static_cast<std::size_t>(blocks) * kBlockSize);
+  cell_sides_.grow_to(static_cast<std::size_t>(blocks) * kBrick);
   for_each_brick_in_parallel([&](const std::array<int, 3>& brick, std::int32_t& entry) {
-    if (entry >= 0) copy_brick(volume, level_set, brick, &blocks_[static_cast<std::size_t>(entry) * kBlockSize]);
+    if (entry < 0) return;
+    const auto number = static_cast<std::size_t>(entry);
+    copy_brick(volume, level_set, brick, &blocks_[number * kBlockSize]);
+    find_cell_sides(brick, &cell_sides_[number * kBrick]);
   });
 }
 
@@ -92,6 +97,18 @@ void BrickField::find_sides(const Volume& volume, const LevelSet& level_set) {
     }
     entry = side == Side::kBoth ? 0 : side == Side::kInside ? kInsideBrick : kOutsideBrick;
   });
+}
+
+void BrickField::find_cell_sides(const std::array<int, 3>& brick, LayerSides* layers) const {
+  const BrickEdges edges(*this, brick);
+  for (int layer = 0; layer < kBrick; ++layer) {
+    std::uint64_t all = edges.inside(0, layer), any = all;
+    for (int corner = 1; corner < 8; ++corner) {
+      all &= edges.inside(corner, layer);
+      any |= edges.inside(corner, layer);
+    }
+    layers[layer] = {all, any & ~all};
+  }
 }
 
 BrickField::CellSamples BrickField::cell_samples(const std::array<int, 3>& cell) const {

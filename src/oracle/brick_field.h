@@ -70,7 +70,10 @@ class BrickField {
   /// pre: contains(u).
   Sample sample(const Point3& u) const;
   double value(const Point3& u) const { return sample(u).value; }
-  bool inside(const Point3& u) const { return sample(u).inside(); }
+  bool inside(const Point3& u) const {
+    const State side = cell_state(cell_of(u));
+    return side == State::kMixed ? sample(u).inside() : side == State::kInside;
+  }
   /// Gradient in grid coordinates, zero in pure bricks. pre: contains(u).
   Vector3 gradient(const Point3& u) const;
   double level() const { return level_; }
@@ -96,7 +99,13 @@ class BrickField {
     const int offset = ((cell[2] & kInBrick) * kBlock + (cell[1] & kInBrick)) * kBlock + (cell[0] & kInBrick);
     return &blocks_[static_cast<std::size_t>(entry) * kBlockSize + static_cast<std::size_t>(offset)];
   }
+  /// A bit for each cell of a layer of a mixed brick, x fastest.
+  struct LayerSides {
+    std::uint64_t inside;  ///< all of its samples are
+    std::uint64_t mixed;   ///< some are
+  };
   void find_sides(const Volume& volume, const LevelSet& level_set);
+  void find_cell_sides(const std::array<int, 3>& brick, LayerSides* layers) const;
   template <class Visit>
   void for_each_brick_in_parallel(const Visit& visit);
 
@@ -104,6 +113,7 @@ class BrickField {
   std::array<int, 3> size_, brick_counts_;
   std::vector<std::int32_t> table_;  // per brick: number of its block, or one of the constants
   PageArray<float> blocks_;
+  PageArray<LayerSides> cell_sides_;  // kBrick layers of each mixed brick: a line of the cache tells what eight samples do
 };
 
 template <class Visit>
@@ -128,14 +138,11 @@ double trilinear(const Samples& s, double x, double y, double z) {
 inline BrickField::State BrickField::cell_state(const std::array<int, 3>& cell) const {
   const std::int32_t entry = entry_of(cell);
   if (entry < 0) return state_of(entry);
-  constexpr int kRow = kBlock, kSlice = kBlock * kBlock;
-  const float* s = lowest_sample(entry, cell);
-  float least = s[0], most = s[0];
-  for (int corner : {1, kRow, kRow + 1, kSlice, kSlice + 1, kSlice + kRow, kSlice + kRow + 1}) {
-    least = std::min(least, s[corner]);
-    most = std::max(most, s[corner]);
-  }
-  return least > level_ ? State::kInside : most > level_ ? State::kMixed : State::kOutside;
+  constexpr int kInBrick = kBrick - 1;
+  const LayerSides& layer = cell_sides_[static_cast<std::size_t>(entry) * kBrick + (cell[2] & kInBrick)];
+  const int bit = (cell[1] & kInBrick) * kBrick + (cell[0] & kInBrick);
+  if ((layer.mixed >> bit & 1) != 0) return State::kMixed;
+  return (layer.inside >> bit & 1) != 0 ? State::kInside : State::kOutside;
 }
 
 inline BrickField::Sample BrickField::sample(const Point3& u) const {
