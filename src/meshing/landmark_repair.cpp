@@ -17,7 +17,7 @@ bool Refinement::repair_landmarks() {
     if (!budget_left()) return inserted;
     inserted |= repair_landmark(landmark);
   }
-  return inserted || repair_links() || repair_deferred_umbrellas() || repair_pieces() || repair_voronoi_edges(false) ||
+  return inserted || repair_links() || repair_deferred_umbrellas() || repair_voronoi_edges(false) || repair_pieces() ||
          look_closer();
 }
 

@@ -180,8 +180,8 @@ class Refinement {
   bool repair_topology();
   /// For meshes fine enough that the oracle has landmarks: one insertion for each landmark on the wrong side of the
   /// mesh; if there is none, for each link that does not stay on its side; if there is none, step 5 where it waited for
-  /// these; if there is none, for each piece without a landmark; if there is none, for each Voronoi edge that makes an
-  /// excursion to the other side. True if anything was inserted. All but umbrellas and Voronoi edges is not in the book:
+  /// these; if there is none, for each Voronoi edge that makes an excursion to the other side; if there is none, for each
+  /// piece without a landmark. True if anything was inserted. All but umbrellas and Voronoi edges is not in the book:
   /// trilinear surfaces have necks and gaps of any width, which no size field foresees.
   bool repair_landmarks();
 
