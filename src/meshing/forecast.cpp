@@ -29,17 +29,17 @@ constexpr Costs kSurfaceCosts{
     .vertices = {.surface = 0.85},
     .triangles = {.surface = 1.7},
     .tets = {},
-    .seconds = {.surface = 8e-6, .thin = 11.5e-6, .samples = 0.1e-6},
+    .seconds = {.surface = 6e-6, .thin = 9e-6, .samples = 0.07e-6},
     .bytes = {.surface = 640, .samples = 13, .constant = 1e6},
 };
-// With an interior lattice, whose deep part is not inserted.
+// With an interior lattice, most of which goes in without insertion.
 constexpr Costs kTetCosts{
     .vertices = {.surface = 0.53, .graded = 0.6, .volume = 0.68},
     .triangles = {.surface = 1.72},
     .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.13},
     .seconds =
-        {.surface = 10.4e-6, .graded = 3.3e-6, .volume = 3.3e-6, .deep = -1.8e-6, .thin = 16e-6, .samples = 0.16e-6},
-    .bytes = {.surface = 510, .graded = 365, .volume = 390, .deep = -215, .samples = 27},
+        {.surface = 8e-6, .graded = 2.8e-6, .volume = 2.6e-6, .deep = -1e-6, .thin = 12e-6, .samples = 0.15e-6},
+    .bytes = {.surface = 510, .graded = 365, .volume = 420, .samples = 27},
 };
 // Without, where the cell size varies.
 constexpr Costs kVaryingTetCosts{
