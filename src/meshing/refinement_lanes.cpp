@@ -288,7 +288,8 @@ void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
   }
   if (!lane.insertion || !delaunay_.holds(lane.lane)) return;
   if (lane.for_facet) {
-    lane.dirty.add(delaunay_.vertices(queues.facets[queues.next_facet].facet));  // it may be known without its ball
+    // What sharp edges have left may be part of an umbrella without its ball.
+    if (features_) lane.dirty.add(delaunay_.vertices(queues.facets[queues.next_facet].facet));
     queues.pop_facet();
   }
   const VertexId inserted = delaunay_.commit(lane.lane, *lane.insertion);

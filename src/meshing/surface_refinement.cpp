@@ -245,7 +245,7 @@ bool Refinement::repair_umbrella(VertexId vertex, bool may_defer) {
     unrepaired_.push_back(vertex);
     return false;
   }
-  mark_dirty(vertex);  // a segment may have been split instead
+  if (features_) mark_dirty(vertex);  // a segment may have been split instead
   ++report_.topology_insertions;
   return true;
 }
