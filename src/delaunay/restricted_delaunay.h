@@ -41,9 +41,8 @@ class RestrictedDelaunay {
   /// points not inserted; created() holds all cells made.
   std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const GoOn& go_on);
 
-  /// Puts tets inside the domain that are known in place of what their walls enclose; created() holds those at walls: facets between two of
-  /// them are taken not to be bipolar.
-  /// False, and nothing is changed, if one of the walls is no facet.
+  /// Puts tets inside the domain that are known in place of what their walls enclose. created() holds those at walls:
+  /// facets between others are taken not to be bipolar. False, and nothing is changed, if one of the walls is no facet.
   bool replace(const KnownTets& known);
 
   std::size_t cell_capacity() const { return delaunay_.cell_capacity(); }

@@ -142,7 +142,10 @@ class Refinement {
   bool has_interior_vertex(FacetId facet) const;
   void remove_interior_vertex_of(FacetId facet);
   void remove_vertex(VertexId vertex);
-  bool may_be_restricted(FacetId facet) const;
+  /// Whether the facet's dual edge must be looked at to know if the facet is restricted.
+  bool may_be_restricted(FacetId facet) const {
+    return delaunay_.bipolar(facet) || (variant_.restricted == Restricted::kAll && delaunay_.proper(facet));
+  }
   std::optional<SurfaceBall> find_ball(FacetId facet, const Oracle& oracle) const;
   Verdict judge(FacetId facet, const SurfaceBall& ball) const;
   std::optional<VertexId> insert_surface_point(const Point3& p, CellId hint);

@@ -33,21 +33,18 @@ Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, con
 }
 
 void Refinement::enqueue(std::span<const CellId> created, std::uint32_t oldest, RefinementQueues& queues) const {
-  const bool all = variant_.restricted == Restricted::kAll;
   for (CellId cell : created) {
     const std::uint32_t stamp = delaunay_.stamp(cell);
-    const Label label = delaunay_.label(cell);
-    if (tet_criteria_ != nullptr && label != 0 && bad(cell)) queues.tets.push_back({cell, stamp});
+    if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) queues.tets.push_back({cell, stamp});
     for (int i = 0; i < 4; ++i) {
       const FacetId facet{cell, i};
-      const CellId neighbor = delaunay_.neighbors(cell)[i];
-      // As may_be_restricted() has it.
-      if (delaunay_.label(neighbor) == label && !(all && delaunay_.proper(facet))) continue;
+      if (!may_be_restricted(facet)) continue;
       // A ball that outlives its cell may be one that is to be split, and waited with that, of tets or once Quality
       // began.
       const SurfaceBall* ball = delaunay_.ball(facet);
       const bool may_wait = tet_criteria_ != nullptr || !persistent_.empty();
       if (ball != nullptr && (!may_wait || judge(facet, *ball) != Verdict::kSplit)) continue;
+      const CellId neighbor = delaunay_.neighbors(cell)[i];
       const bool met_from_there = neighbor < cell && delaunay_.stamp(neighbor) >= oldest;
       if (!met_from_there) queues.facets.push_back({facet, stamp});
     }
@@ -101,11 +98,6 @@ void Refinement::remove_vertex(VertexId vertex) {
   }
   ++report_.removals;
   enqueue_created();
-}
-
-/// Whether the facet's dual edge must be looked at to know if the facet is restricted.
-bool Refinement::may_be_restricted(FacetId facet) const {
-  return delaunay_.bipolar(facet) || (variant_.restricted == Restricted::kAll && delaunay_.proper(facet));
 }
 
 /// The surface ball by which to judge a facet: the one that exceeds the size by most, if any does, else the largest.

@@ -15,19 +15,11 @@ namespace delvox {
 namespace {
 
 using test::Random;
+using test::unit_ball;
 using Coordinates = std::array<double, 3>;
 
 Coordinates coordinates(const Point3& p) {
   return {p.x, p.y, p.z};
-}
-
-std::unique_ptr<SmoothOracle> unit_ball() {
-  ImplicitFunction function;
-  function.value = [](const Point3& p) { return norm(p) - 1; };
-  function.gradient = [](const Point3& p) { return (1 / norm(p)) * p; };
-  function.box = {{-1.1, -1.1, -1.1}, {1.1, 1.1, 1.1}};
-  function.resolution = 0.2;
-  return make_implicit_oracle(function);
 }
 
 /// Two triangulations of points around some balls: one has the points in the balls too. What lies between the ball's

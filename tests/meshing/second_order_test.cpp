@@ -15,15 +15,7 @@ namespace delvox {
 namespace {
 
 using test::cube_mesh;
-
-std::unique_ptr<SmoothOracle> unit_ball() {
-  ImplicitFunction ball;
-  ball.value = [](const Point3& p) { return norm(p) - 1; };
-  ball.gradient = [](const Point3& p) { return (1 / norm(p)) * p; };
-  ball.box = {{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}};
-  ball.resolution = 0.1;
-  return make_implicit_oracle(ball);
-}
+using test::unit_ball;
 
 TetMesh mesh_of(const Oracle& oracle, double size) {
   DelTetSurfOptions options;

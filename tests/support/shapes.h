@@ -49,4 +49,14 @@ inline std::unique_ptr<SmoothOracle> voxel_phantom_oracle(std::string_view kind,
   return make_isosurface_oracle(make_phantom(kind, options), {phantom_truth(kind, options).isovalue, false});
 }
 
+/// The ball of radius 1 around the origin.
+inline std::unique_ptr<SmoothOracle> unit_ball() {
+  ImplicitFunction ball;
+  ball.value = [](const Point3& p) { return norm(p) - 1; };
+  ball.gradient = [](const Point3& p) { return (1 / norm(p)) * p; };
+  ball.box = {{-1.2, -1.2, -1.2}, {1.2, 1.2, 1.2}};
+  ball.resolution = 0.1;
+  return make_implicit_oracle(ball);
+}
+
 }  // namespace delvox::test
