@@ -49,9 +49,9 @@ void Delaunay3::put_in_place(const KnownTets& known, const WalledRegion& region)
   }
 }
 
-bool RestrictedDelaunay::replace(const KnownTets& known) {
+std::optional<std::uint32_t> RestrictedDelaunay::replace(const KnownTets& known) {
   const std::optional<WalledRegion> region = find_walled_region(delaunay_, known.walls);
-  if (!region) return false;
+  if (!region) return std::nullopt;
   lane_.lost.clear();
   for (CellId cell : region->cells) {
     for (int i = 0; i < 4 && balls_.any(cell); ++i) lose_ball({cell, i}, lane_);
@@ -74,7 +74,7 @@ bool RestrictedDelaunay::replace(const KnownTets& known) {
   created_.clear();
   for (FacetId facet : known.inside) created_.push_back(facet.cell);
   give_back_room();
-  return true;
+  return stamp;
 }
 
 }  // namespace delvox

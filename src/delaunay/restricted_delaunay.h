@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "core/page_array.h"
@@ -42,8 +43,9 @@ class RestrictedDelaunay {
   std::vector<VertexId> insert_interior(const std::vector<Point3>& points, const GoOn& go_on);
 
   /// Puts tets inside the domain that are known in place of what their walls enclose. created() holds those at walls:
-  /// facets between others are taken not to be bipolar. False, and nothing is changed, if one of the walls is no facet.
-  bool replace(const KnownTets& known);
+  /// facets between others are taken not to be bipolar. Returns the stamp of all of these tets; none, and nothing is
+  /// changed, if one of the walls is no facet.
+  std::optional<std::uint32_t> replace(const KnownTets& known);
 
   std::size_t cell_capacity() const { return delaunay_.cell_capacity(); }
   std::size_t vertex_capacity() const { return delaunay_.vertex_capacity(); }
@@ -88,6 +90,10 @@ class RestrictedDelaunay {
   void prefetch_neighbors(CellId cell) const { delaunay_.prefetch_neighbors(cell); }
   /// The cell that contains p, by a walk from `hint`.
   CellId locate(const Point3& p, CellId hint) const { return delaunay_.locate(p, hint); }
+  /// Tells the processor that what a walk asks of a cell's vertices will be asked for soon.
+  void prefetch_vertices(CellId cell) const {
+    for (VertexId vertex : delaunay_.vertices(cell)) delaunay_.prefetch_vertex(vertex);
+  }
 
   /// Is the facet's dual edge bipolar?
   bool bipolar(FacetId facet) const { return label(facet.cell) != label(neighbors(facet.cell)[facet.index]); }

@@ -9,7 +9,6 @@
 #include "core/hash.h"
 #include "core/parallel.h"
 #include "core/round.h"
-#include "delaunay/restricted_triangles.h"
 #include "meshing/deep_tets.h"
 #include "meshing/lattice_rows.h"
 
@@ -55,25 +54,22 @@ bool InteriorLattice::lay_out(const RestrictedDelaunay& delaunay) {
 }
 
 bool InteriorLattice::find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on) {
-  const std::vector<FacetId> triangles = restricted_triangles(delaunay);
-  for (const bool centre : {false, true}) {
-    const LatticeRows rows{origin_, cube_, centre ? 0.5 : 0.0, counts_[1], counts_[2]};
-    const RowCrossings found = find_row_crossings(delaunay, triangles, rows);
-    for (Site row = 0; row + 1 < found.first.size(); ++row) {
-      if (!go_on()) {
-        inside_.clear();
-        return false;
-      }
-      const Site row_start = (centre ? cubes_ : 0) + row * stride_[1];
-      for (std::uint32_t c = found.first[row]; c + 1 < found.first[row + 1]; ++c) {
-        if (found.crossings[c].label == 0) continue;
-        const auto place = [&](double x) { return (x - origin_.x) / cube_ - (centre ? 0.5 : 0.0); };
-        const auto end = static_cast<Site>(std::ceil(place(found.crossings[c + 1].x)));
-        for (auto i = static_cast<Site>(std::ceil(place(found.crossings[c].x))); i < end; ++i) {
-          inside_.push_back(row_start + i);
-          labels_.push_back(found.crossings[c].label);
-          state_[row_start + i] = kDeep;
-        }
+  const RowCrossings found = find_row_crossings(delaunay, {origin_, cube_, counts_[1], counts_[2]});
+  for (Site row = 0; row + 1 < found.first.size(); ++row) {
+    if (!go_on()) {
+      inside_.clear();
+      return false;
+    }
+    const Site row_start = row * stride_[1];
+    const double shift = is_centre(row_start) ? 0.5 : 0.0;
+    const auto place = [&](double x) { return static_cast<Site>(ceil_to_int((x - origin_.x) / cube_ - shift)); };
+    for (std::uint32_t c = found.first[row]; c + 1 < found.first[row + 1]; ++c) {
+      if (found.crossings[c].label == 0) continue;
+      const Site end = place(found.crossings[c + 1].x);
+      for (Site i = place(found.crossings[c].x); i < end; ++i) {
+        inside_.push_back(row_start + i);
+        labels_.push_back(found.crossings[c].label);
+        state_[row_start + i] = kDeep;
       }
     }
   }
@@ -138,21 +134,19 @@ bool InteriorLattice::block_around(const Point3& p, double radius) {
   const Point3 at = (1 / cube_) * (p - origin_);
   for (const bool centre : {false, true}) {
     const Point3 u = centre ? at - Vector3{0.5, 0.5, 0.5} : at;
-    const auto first = [&](int axis, double half_width) {
-      return std::max(std::int64_t{0}, ceil_to_int(u[axis] - half_width));
-    };
-    const auto last = [&](int axis, double half_width) {
-      return std::min<std::int64_t>(counts_[axis] - 1, floor_to_int(u[axis] + half_width));
-    };
-    for (std::int64_t k = first(2, reach); k <= last(2, reach); ++k) {
+    std::array<std::int64_t, 3> first, last;
+    for (int axis = 0; axis < 3; ++axis) {
+      first[axis] = std::max(std::int64_t{0}, ceil_to_int(u[axis] - reach));
+      last[axis] = std::min<std::int64_t>(counts_[axis] - 1, floor_to_int(u[axis] + reach));
+    }
+    for (std::int64_t k = first[2]; k <= last[2]; ++k) {
       const double dz = static_cast<double>(k) - u.z;
-      for (std::int64_t j = first(1, reach); j <= last(1, reach); ++j) {
+      for (std::int64_t j = first[1]; j <= last[1]; ++j) {
         const double dy = static_cast<double>(j) - u.y, left = reach * reach - dy * dy - dz * dz;
-        if (left < 0) continue;
-        const double half_width = std::sqrt(left);
         const Site row = (centre ? cubes_ : 0) + static_cast<Site>(k * stride_[2] + j * stride_[1]);
-        for (std::int64_t i = first(0, half_width); i <= last(0, half_width); ++i) {
-          any |= block(row + static_cast<Site>(i));
+        for (std::int64_t i = first[0]; i <= last[0]; ++i) {
+          const double dx = static_cast<double>(i) - u.x;
+          if (dx * dx <= left) any |= block(row + static_cast<Site>(i));
         }
       }
     }
@@ -249,7 +243,7 @@ bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
   return true;
 }
 
-void InteriorLattice::add_deep(RestrictedDelaunay& delaunay) const {
+std::uint32_t InteriorLattice::add_deep(RestrictedDelaunay& delaunay) const {
   std::vector<Site> corners;
   std::copy_if(inside_.begin(), inside_.end(), std::back_inserter(corners),
                [this](Site site) { return !is_centre(site) && state_[site] != kBlocked; });
@@ -269,7 +263,9 @@ void InteriorLattice::add_deep(RestrictedDelaunay& delaunay) const {
     for (std::size_t i = begin; i < end; ++i) known.points[i] = point(deep_[i]);
   });
   // Their spheres are empty, so that the walls are facets whatever else there is; if not, there is nothing to rely on.
-  if (!delaunay.replace(known)) delaunay.insert_interior(known.points, always_go_on);
+  const auto stamp = delaunay.replace(known);
+  if (!stamp) delaunay.insert_interior(known.points, always_go_on);
+  return stamp.value_or(0);
 }
 
 }  // namespace delvox

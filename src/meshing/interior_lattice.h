@@ -44,8 +44,9 @@ class InteriorLattice {
   /// inserted, and moves the shell inward there. False if there is none.
   bool adapt(const RestrictedDelaunay& delaunay);
   const std::vector<Site>& deep() const { return deep_; }
-  /// Adds the deep sites and their tets to the triangulation. pre: all of shell() have their vertices.
-  void add_deep(RestrictedDelaunay& delaunay) const;
+  /// Adds the deep sites and their tets to the triangulation; returns the tets' stamp, 0 if they have none of their own.
+  /// pre: all of shell() have their vertices.
+  std::uint32_t add_deep(RestrictedDelaunay& delaunay) const;
 
  private:
   enum State : std::uint8_t { kBlocked, kShell, kDeep };

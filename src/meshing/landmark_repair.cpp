@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "core/parallel.h"
+#include "core/take_turns.h"
+#include "meshing/link_walk.h"
 #include "meshing/pieces.h"
 #include "meshing/refinement.h"
 
@@ -93,17 +96,52 @@ bool Refinement::repair_links() {
   constexpr std::size_t kChunk = 1024;
   const std::vector<std::uint32_t> links = watch_.take_links();
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<MisplacedCell>& misplaced) {
-    CellId hint = delaunay_.some_cell();
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto [a, b] = watch_.link(links[i]);
-      const CellId cell_a = cell_of_landmark({a}, hint), cell_b = cell_of_landmark({b}, cell_a);
-      hint = cell_b;
-      const auto place = misplaced_on_link(watch_.point(a), cell_a, watch_.point(b), cell_b);
-      if (place) misplaced.push_back(*place);
-    }
+    follow_links({links.data() + begin, links.data() + end}, misplaced);
   };
-  const auto misplaced = gather_chunks<MisplacedCell>(links.size(), kChunk, collect);
-  return insert_where_misplaced(misplaced);
+  return insert_where_misplaced(gather_chunks<MisplacedCell>(links.size(), kChunk, collect));
+}
+
+/// The first cell of the other label on each link that runs through one.
+void Refinement::follow_links(std::span<const std::uint32_t> links, std::vector<MisplacedCell>& misplaced) const {
+  constexpr int kMostCells = 1000;  // a walk that rounding leads astray finds nothing
+  struct Walk {
+    LinkWalk on_link;
+    CellId last;
+    Label label;
+    std::size_t number;
+    int cells = 0;
+    bool has_asked = false;
+  };
+  const Oracle& oracle = *delaunay_.worker().oracle;
+  std::vector<std::optional<MisplacedCell>> found(links.size());
+  CellId hint = delaunay_.some_cell();
+  const auto start = [&](std::size_t n) -> std::optional<Walk> {
+    const auto [a, b] = watch_.link(links[n]);
+    const CellId first = cell_of_landmark({a}, hint), last = cell_of_landmark({b}, first);
+    hint = last;
+    if (first == last) return std::nullopt;
+    return Walk{LinkWalk(delaunay_, watch_.point(a), watch_.point(b), first), last, delaunay_.label(first), n};
+  };
+  const auto step = [&](Walk& walk) {
+    const CellId cell = walk.on_link.cell();
+    if (std::exchange(walk.has_asked, !walk.has_asked) == false) {
+      delaunay_.prefetch_vertices(cell);
+      return true;
+    }
+    if (delaunay_.label(cell) != walk.label) {
+      const auto middle = walk.on_link.middle();
+      const auto p = middle ? crossing_beside(*middle, cell, oracle) : std::nullopt;
+      if (p) found[walk.number] = MisplacedCell{*p, cell, delaunay_.stamp(cell)};
+      if (p || !middle) return false;
+    }
+    if (!walk.on_link.next() || walk.on_link.cell() == walk.last) return false;
+    delaunay_.prefetch(walk.on_link.cell());
+    return ++walk.cells < kMostCells;
+  };
+  take_turns(links.size(), start, step);
+  for (const auto& place : found) {
+    if (place) misplaced.push_back(*place);
+  }
 }
 
 bool Refinement::insert_where_misplaced(const std::vector<MisplacedCell>& misplaced) {
@@ -113,42 +151,6 @@ bool Refinement::insert_where_misplaced(const std::vector<MisplacedCell>& mispla
     if (delaunay_.alive(place.cell, place.stamp)) inserted |= insert_for_landmark(place.crossing, place.cell);
   }
   return inserted;
-}
-
-/// The first cell of the other label that the link from a, in `cell`, to b, in `last`, runs through: from each cell on
-/// through the facet that the link leaves it by.
-std::optional<Refinement::MisplacedCell> Refinement::misplaced_on_link(const Point3& a, CellId cell, const Point3& b,
-                                                                       CellId last) const {
-  constexpr int kMostCells = 1000;  // a walk that rounding leads astray finds nothing
-  const Vector3 ab = b - a;
-  const Label label = delaunay_.label(cell);
-  CellId came_from = kNone;
-  double entered = 0;
-  for (int cells = 0; cells < kMostCells && cell != last; ++cells) {
-    double left = 1;
-    CellId next = kNone;
-    delaunay_.prefetch_neighbors(cell);
-    for (int i = 0; i < 4; ++i) {
-      const CellId beyond = delaunay_.neighbors(cell)[i];
-      if (beyond == came_from) continue;
-      const auto v = delaunay_.vertices(FacetId{cell, i});
-      const Point3& p = delaunay_.point(v[0]);
-      const Vector3 outward = cross(delaunay_.point(v[1]) - p, delaunay_.point(v[2]) - p);
-      const double steepness = dot(outward, ab), way = dot(outward, p - a);
-      if (steepness <= 0 || way >= left * steepness) continue;
-      left = way / steepness;
-      next = beyond;
-    }
-    if (delaunay_.label(cell) != label) {
-      const auto p = crossing_beside(a + (0.5 * (entered + left)) * ab, cell, *delaunay_.worker().oracle);
-      if (p) return MisplacedCell{*p, cell, delaunay_.stamp(cell)};
-    }
-    if (next == kNone || next == RestrictedDelaunay::kBeyond) break;
-    entered = std::max(entered, left);
-    came_from = cell;
-    cell = next;
-  }
-  return std::nullopt;
 }
 
 /// With every link in place: splits the balls of pieces without landmarks, which are not real, one for each piece.

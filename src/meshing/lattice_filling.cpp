@@ -14,7 +14,7 @@ void Refinement::fill_interior(const TetCriteria& criteria) {
     refine();  // step 2 removes the sites that disturb the surface
     if (!budget_left()) return;
   } while (lattice.adapt(delaunay_));
-  lattice.add_deep(delaunay_);
+  lattice_stamp_ = lattice.add_deep(delaunay_);
   report_.interior_insertions += lattice.deep().size();
   mark_lost_dirty();
   note_new_facets();

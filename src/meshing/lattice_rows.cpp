@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "core/round.h"
+#include "delaunay/restricted_triangles.h"
 
 namespace delvox {
 namespace {
@@ -20,11 +21,19 @@ class RowCaster {
  public:
   RowCaster(const RestrictedDelaunay& delaunay, const LatticeRows& rows) : delaunay_(delaunay), rows_(rows) {}
 
-  RowCrossings run(const std::vector<FacetId>& triangles) const {
-    constexpr std::size_t kChunk = 4096;
-    return sorted(gather_chunks<Hit>(triangles.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& hits) {
-      for (std::size_t i = begin; i < end; ++i) cast_at(triangles[i], hits);
-    }));
+  RowCrossings run() const {
+    constexpr std::size_t kChunk = 1 << 12, kAhead = 8;
+    const auto cast = [&](std::size_t begin, std::size_t end, std::vector<Hit>& hits) {
+      std::vector<FacetId> facets;
+      for_each_triangle_with_ball(delaunay_, begin, end, [&](FacetId facet) { facets.push_back(facet); });
+      for (std::size_t i = 0; i < facets.size(); ++i) {
+        if (i + kAhead < facets.size()) {
+          for (VertexId v : delaunay_.vertices(facets[i + kAhead])) delaunay_.prefetch_vertex(v);
+        }
+        cast_at(facets[i], hits);
+      }
+    };
+    return sorted(gather_chunks<Hit>(delaunay_.cell_capacity(), kChunk, cast));
   }
 
  private:
@@ -33,21 +42,26 @@ class RowCaster {
     RowCrossing crossing;
   };
 
-  std::int32_t first_at(double lowest, double origin) const {
-    return static_cast<std::int32_t>(ceil_to_int((lowest - origin) / rows_.step - rows_.shift));
+  std::int32_t first_at(double lowest, double origin, double shift) const {
+    return std::max(0, static_cast<std::int32_t>(ceil_to_int((lowest - origin) / rows_.step - shift)));
   }
 
   void cast_at(FacetId facet, std::vector<Hit>& hits) const {
     const auto v = delaunay_.vertices(facet);
     Box3 box;
     for (VertexId vertex : v) box.extend(delaunay_.point(vertex));
-    for (std::int32_t k = std::max(0, first_at(box.min.z, rows_.origin.z)); k < rows_.nz; ++k) {
-      const double z = rows_.origin.z + (k + rows_.shift) * rows_.step;
-      if (z > box.max.z) break;
-      for (std::int32_t j = std::max(0, first_at(box.min.y, rows_.origin.y)); j < rows_.ny; ++j) {
-        const double y = rows_.origin.y + (j + rows_.shift) * rows_.step;
-        if (y > box.max.y) break;
-        hit(facet, v, static_cast<std::uint32_t>(k) * rows_.ny + j, y, z, hits);
+    for (const bool centre : {false, true}) {
+      const double shift = centre ? 0.5 : 0.0;
+      const std::int32_t first_j = first_at(box.min.y, rows_.origin.y, shift);
+      for (std::int32_t k = first_at(box.min.z, rows_.origin.z, shift); k < rows_.nz; ++k) {
+        const double z = rows_.origin.z + (k + shift) * rows_.step;
+        if (z > box.max.z) break;
+        for (std::int32_t j = first_j; j < rows_.ny; ++j) {
+          const double y = rows_.origin.y + (j + shift) * rows_.step;
+          if (y > box.max.y) break;
+          const std::int32_t layer = centre ? rows_.nz + k : k;
+          hit(facet, v, static_cast<std::uint32_t>(layer) * rows_.ny + j, y, z, hits);
+        }
       }
     }
   }
@@ -74,7 +88,7 @@ class RowCaster {
 
   RowCrossings sorted(const std::vector<Hit>& hits) const {
     RowCrossings result;
-    result.first.assign(static_cast<std::size_t>(rows_.ny) * rows_.nz + 1, 0);
+    result.first.assign(2 * static_cast<std::size_t>(rows_.ny) * rows_.nz + 1, 0);
     for (const Hit& hit : hits) ++result.first[hit.row + 1];
     for (std::size_t row = 1; row < result.first.size(); ++row) result.first[row] += result.first[row - 1];
     result.crossings.resize(hits.size());
@@ -93,9 +107,8 @@ class RowCaster {
 
 }  // namespace
 
-RowCrossings find_row_crossings(const RestrictedDelaunay& delaunay, const std::vector<FacetId>& triangles,
-                                const LatticeRows& rows) {
-  return RowCaster(delaunay, rows).run(triangles);
+RowCrossings find_row_crossings(const RestrictedDelaunay& delaunay, const LatticeRows& rows) {
+  return RowCaster(delaunay, rows).run();
 }
 
 }  // namespace delvox

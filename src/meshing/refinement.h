@@ -120,8 +120,7 @@ class Refinement {
   // Lanes (refinement_lanes.cpp)
   static bool enough_for_lanes(std::size_t waiting);
   void run_lanes(RefinementQueues& aside);
-  template <class Waiting, class CellOf>
-  void sort_by_place(std::vector<Waiting>& entries, std::size_t first, const CellOf& cell_of) const;
+  void sort_by_place();
   void keep_to_budget();
   void run_alone(std::size_t at_least);
   void furnish(RefinementLane& lane);
@@ -216,9 +215,9 @@ class Refinement {
   std::optional<Point3> crossing_beside(const Point3& landmark, CellId cell, const Oracle& oracle) const;
   bool insert_for_landmark(const Point3& p, CellId hint);
   bool repair_links();
+  void follow_links(std::span<const std::uint32_t> links, std::vector<MisplacedCell>& misplaced) const;
   bool insert_where_misplaced(const std::vector<MisplacedCell>& misplaced);
   bool repair_pieces();
-  std::optional<MisplacedCell> misplaced_on_link(const Point3& a, CellId cell, const Point3& b, CellId last) const;
   std::vector<SurfaceBall> largest_balls(Pieces& pieces, const std::vector<bool>& real) const;
   Box3 box_of_change(const Star& star) const;
   void note_change(const Box3& box, VertexId near);
@@ -232,7 +231,8 @@ class Refinement {
   std::vector<MisplacedCell> excursions_at(std::vector<VertexId> vertices) const;
   void add_excursions(CellId cell, VertexId at, const Oracle& oracle, std::vector<MisplacedCell>& misplaced) const;
   bool look_closer();
-  SurfaceTopology topology() const;
+  SurfaceTopology topology();
+  SurfaceTopology count_topology() const;
   std::optional<Point3> crossing_of_excursion(FacetId facet, const Oracle& oracle) const;
 
   // Lattice (lattice_filling.cpp)
@@ -253,6 +253,7 @@ class Refinement {
   SurfaceCriteria touching_;  // what triangles that touch sharp edges are held to
   Variant variant_;
   const TetCriteria* tet_criteria_ = nullptr;
+  std::uint32_t lattice_stamp_ = 0;  // of tets that meet any criteria, from the lattice inside
   RunReport& report_;
   RunBudget budget_;
   RestrictedDelaunay delaunay_;
@@ -280,7 +281,8 @@ class Refinement {
   double shortest_excursion_ = 0.1;  // of Voronoi edges that the mesh takes notice of, in sizes
   bool looks_closer_ = false;
   std::uint32_t folds_from_ = 0;  // cells with this stamp or a later one were not there when folds were looked for
-  std::optional<SurfaceTopology> expected_topology_;
+  std::optional<SurfaceTopology> expected_topology_, topology_;
+  std::uint32_t topology_from_ = 0;  // the next stamp when that was counted
   std::size_t vertices_at_first_look_ = 0, closer_insertions_ = 0;
   RepairEffort effort_;
   std::vector<VertexId> since_smooth_;  // vertices whose umbrella has changed since Smooth looked at it

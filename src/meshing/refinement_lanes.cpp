@@ -25,6 +25,22 @@ void take_share(const std::vector<T>& all, std::size_t first, std::size_t lane, 
   share.insert(share.end(), at(lane), at(lane + 1));
 }
 
+/// Sorts the entries from number `first` on by their keys.
+template <class Waiting, class KeyOf>
+void sort_by(const KeyOf& key_of, std::vector<Waiting>& entries, std::size_t first) {
+  constexpr std::size_t kChunk = 4096;
+  std::vector<KeyedIndex> keys(entries.size() - first);
+  for_each_chunk(keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) keys[i] = {key_of(entries[first + i]), static_cast<std::uint32_t>(i)};
+  });
+  if (std::is_sorted(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.key < b.key; })) return;
+  sort_by_key(keys);
+  std::vector<Waiting> sorted(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(first));
+  sorted.reserve(entries.size());
+  for (const KeyedIndex& key : keys) sorted.push_back(entries[first + key.index]);
+  entries = std::move(sorted);
+}
+
 /// All that waits in either, in the order that `first` comes out first.
 RefinementQueues joined(const RefinementQueues& first, const RefinementQueues& then) {
   RefinementQueues both;
@@ -57,29 +73,22 @@ void Refinement::refine() {
   }
 }
 
-/// Sorts entries along a curve through space, so that each lane gets a place of its own. Entries that are dead by now
-/// may come anywhere.
-template <class Waiting, class CellOf>
-void Refinement::sort_by_place(std::vector<Waiting>& entries, std::size_t first, const CellOf& cell_of) const {
-  constexpr std::size_t kChunk = 4096;
+/// So that each lane gets a place of its own: facets along a curve through space, as those of the same cells and vertices
+/// are to be looked at one after the other; tets, which are fewer, by their cells, made along such a curve in their time.
+/// Entries that are dead by now may come anywhere.
+void Refinement::sort_by_place() {
   const Box3 box = oracle_.bounds();
-  std::vector<KeyedIndex> keys(entries.size() - first);
-  for_each_chunk(keys.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const VertexId corner = delaunay_.vertices(cell_of(entries[first + i]))[0];
-      keys[i] = {place_along_curve(delaunay_.point(corner), box), static_cast<std::uint32_t>(i)};
-    }
-  });
-  sort_by_key(keys);
-  std::vector<Waiting> sorted(entries.begin(), entries.begin() + static_cast<std::ptrdiff_t>(first));
-  for (const KeyedIndex& key : keys) sorted.push_back(entries[first + key.index]);
-  entries = std::move(sorted);
+  const auto place = [&](const RefinementQueues::WaitingFacet& waiting) {
+    return place_along_curve(delaunay_.point(delaunay_.vertices(waiting.facet.cell)[0]), box);
+  };
+  const auto cell = [](const RefinementQueues::WaitingTet& waiting) { return std::uint64_t{waiting.cell}; };
+  sort_by(place, queues_.facets, queues_.next_facet);
+  sort_by(cell, queues_.tets, 0);
 }
 
 /// Gives each lane its share of what waits, and lets them work until half of them have nothing left.
 void Refinement::run_lanes(RefinementQueues& aside) {
-  sort_by_place(queues_.facets, queues_.next_facet, [](const auto& waiting) { return waiting.facet.cell; });
-  sort_by_place(queues_.tets, 0, [](const auto& waiting) { return waiting.cell; });
+  sort_by_place();
   for (std::size_t i = 0; i < kLanes; ++i) {
     take_share(queues_.facets, queues_.next_facet, i, kLanes, lanes_[i].queues.facets);
     take_share(queues_.tets, 0, i, kLanes, lanes_[i].queues.tets);

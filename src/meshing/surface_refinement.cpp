@@ -281,7 +281,7 @@ void Refinement::report_unmet() {
     tell("persistent triangle", stays(triangle), triangle.points[0], "refinement was stuck without its vertices",
          false);
   }
-  if (expected_topology_ && broken == 0 && topology() != *expected_topology_) {
+  if (expected_topology_ && broken == 0 && !budget_.exhausted() && topology() != *expected_topology_) {
     tell("topology", 1, std::nullopt,
          "components or Euler number differ from the voxels': some neck or gap is too thin to be found", false);
   }

@@ -28,8 +28,8 @@ void Refinement::watch_tets(const TetCriteria& criteria) {
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<RefinementQueues::WaitingTet>& found) {
     for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
       const std::uint32_t stamp = delaunay_.stamp(cell);
-      const bool in_domain = stamp != 0 && delaunay_.label(cell) != 0;
-      if (in_domain && bad(cell)) found.push_back({cell, stamp});
+      const bool in_question = stamp != 0 && stamp != lattice_stamp_ && delaunay_.label(cell) != 0;
+      if (in_question && bad(cell)) found.push_back({cell, stamp});
     }
   };
   queues_.tets = gather_chunks<RefinementQueues::WaitingTet>(delaunay_.cell_capacity(), kChunk, collect);

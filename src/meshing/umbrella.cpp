@@ -5,7 +5,6 @@
 #include <atomic>
 #include <span>
 
-#include "core/page_array.h"
 #include "core/parallel.h"
 #include "delaunay/restricted_triangles.h"
 
@@ -61,32 +60,38 @@ class TrianglesAt {
  public:
   explicit TrianglesAt(const RestrictedDelaunay& delaunay) : first_(delaunay.vertex_capacity(), kNone) {
     constexpr std::size_t kChunk = 1 << 13;
-    const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Corners>& found) {
-      for_each_restricted_triangle(delaunay, begin, end, [&](FacetId f) { found.push_back(delaunay.vertices(f)); });
+    const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Listed>& found) {
+      for_each_triangle_with_ball(delaunay, begin, end, [&](FacetId f) { found.push_back({delaunay.vertices(f), {}}); });
     };
-    triangles_ = gather_chunks<Corners>(delaunay.cell_capacity(), kChunk, collect);
-    next_.grow_to(3 * triangles_.size());
+    triangles_ = gather_chunks<Listed>(delaunay.cell_capacity(), kChunk, collect);
     for_each_chunk(triangles_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-          std::atomic_ref first(first_[triangles_[t][k]]);
-          next_[3 * t + k] = first.exchange(static_cast<std::uint32_t>(3 * t + k), std::memory_order_relaxed);
+          std::atomic_ref first(first_[triangles_[t].vertices[k]]);
+          triangles_[t].next[k] = first.exchange(static_cast<std::uint32_t>(3 * t + k), std::memory_order_relaxed);
         }
       }
     });
   }
 
+  void prefetch(VertexId vertex) const {
+    if (first_[vertex] != kNone) __builtin_prefetch(&triangles_[first_[vertex] / 3]);
+  }
   void find_link(VertexId vertex, std::vector<LinkEdge>& link) const {
-    for (std::uint32_t corner = first_[vertex]; corner != kNone; corner = next_[corner]) {
-      link.push_back(opposite(triangles_[corner / 3], static_cast<int>(corner % 3)));
+    for (std::uint32_t corner = first_[vertex]; corner != kNone;) {
+      const Listed& triangle = triangles_[corner / 3];
+      link.push_back(opposite(triangle.vertices, static_cast<int>(corner % 3)));
+      corner = triangle.next[corner % 3];
     }
   }
 
  private:
-  using Corners = std::array<VertexId, 3>;
-  std::vector<Corners> triangles_;
+  struct Listed {
+    std::array<VertexId, 3> vertices;
+    std::array<std::uint32_t, 3> next;  // at the same vertex: three times a triangle's number, plus its corner there
+  };
+  std::vector<Listed> triangles_;
   std::vector<std::uint32_t> first_;
-  PageArray<std::uint32_t> next_;
 };
 
 }  // namespace
@@ -105,12 +110,11 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
 std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
   constexpr std::size_t kSweepPays = 14;  // a sweep costs about as much as walking around a vertex in so many
   constexpr std::size_t kChunk = 256, kVertices = 8, kCells = 4;
-  const auto select = [&](const auto& find_link) {
+  const auto select = [&](const auto& prefetch, const auto& find_link) {
     return gather_chunks<VertexId>(vertices.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
       std::vector<LinkEdge> link;
       for (std::size_t i = begin; i < end; ++i) {
-        if (i + kVertices < end) delaunay.prefetch_vertex(vertices[i + kVertices]);
-        if (i + kCells < end) delaunay.prefetch(delaunay.cell_of(vertices[i + kCells]));
+        prefetch(i, end);
         link.clear();
         find_link(vertices[i], link);
         if (!is_one_cycle(link)) found.push_back(vertices[i]);
@@ -118,12 +122,19 @@ std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std
     });
   };
   if (vertices.size() * kSweepPays < delaunay.vertex_capacity()) {
-    return select([&](VertexId v, std::vector<LinkEdge>& link) {
+    const auto prefetch = [&](std::size_t i, std::size_t end) {
+      if (i + kVertices < end) delaunay.prefetch_vertex(vertices[i + kVertices]);
+      if (i + kCells < end) delaunay.prefetch(delaunay.cell_of(vertices[i + kCells]));
+    };
+    return select(prefetch, [&](VertexId v, std::vector<LinkEdge>& link) {
       for_each_triangle_at(delaunay, v, [&](FacetId, const LinkEdge& edge) { link.push_back(edge); });
     });
   }
   const TrianglesAt triangles(delaunay);
-  return select([&](VertexId v, std::vector<LinkEdge>& link) { triangles.find_link(v, link); });
+  const auto prefetch = [&](std::size_t i, std::size_t end) {
+    if (i + kVertices < end) triangles.prefetch(vertices[i + kVertices]);
+  };
+  return select(prefetch, [&](VertexId v, std::vector<LinkEdge>& link) { triangles.find_link(v, link); });
 }
 
 }  // namespace delvox

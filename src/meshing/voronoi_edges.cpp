@@ -140,14 +140,21 @@ bool Refinement::look_closer() {
   return false;
 }
 
-/// Of the surface as it is. pre: every umbrella is a disk.
-SurfaceTopology Refinement::topology() const {
+/// Of the surface as it is. pre: every umbrella is a disk, and every triangle has its ball.
+SurfaceTopology Refinement::topology() {
+  if (topology_ && topology_from_ == delaunay_.next_stamp()) return *topology_;
+  topology_from_ = delaunay_.next_stamp();
+  topology_ = count_topology();
+  return *topology_;
+}
+
+SurfaceTopology Refinement::count_topology() const {
   constexpr std::size_t kChunk = 1 << 14;
   UnionFind components(delaunay_.vertex_capacity());
   std::vector<std::uint8_t> met(delaunay_.vertex_capacity(), 0);
   const auto counts = map_chunks(delaunay_.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
     std::size_t triangles = 0;
-    for_each_restricted_triangle(delaunay_, begin, end, [&](FacetId facet) {
+    for_each_triangle_with_ball(delaunay_, begin, end, [&](FacetId facet) {
       const auto corners = delaunay_.vertices(facet);
       for (VertexId v : corners) std::atomic_ref(met[v]).store(1, std::memory_order_relaxed);
       components.join(corners[0], corners[1]);

@@ -123,6 +123,42 @@ BrickField::CellSamples BrickField::cell_samples(const std::array<int, 3>& cell)
   return result;
 }
 
+bool BrickField::may_be_mixed(const std::array<int, 3>& a, const std::array<int, 3>& b) const {
+  std::array<int, 3> low, high, brick;
+  for (int axis = 0; axis < 3; ++axis) {
+    low[axis] = std::min(a[axis], b[axis]);
+    high[axis] = std::max(a[axis], b[axis]);
+    if (high[axis] - low[axis] > kBrick) return true;
+  }
+  for (brick[2] = low[2] >> kBrickBits; brick[2] <= high[2] >> kBrickBits; ++brick[2]) {
+    for (brick[1] = low[1] >> kBrickBits; brick[1] <= high[1] >> kBrickBits; ++brick[1]) {
+      for (brick[0] = low[0] >> kBrickBits; brick[0] <= high[0] >> kBrickBits; ++brick[0]) {
+        if (any_mixed_in_brick(brick, low, high)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// Of the box's cells, those of one brick. A layer's are asked for at once.
+bool BrickField::any_mixed_in_brick(const std::array<int, 3>& brick, const std::array<int, 3>& low, const std::array<int, 3>& high) const {
+  const std::int32_t entry = table_[brick_index(brick)];
+  if (entry < 0) return false;
+  std::array<int, 3> first, last;
+  for (int axis = 0; axis < 3; ++axis) {
+    first[axis] = std::max(low[axis] - brick[axis] * kBrick, 0);
+    last[axis] = std::min(high[axis] - brick[axis] * kBrick, kBrick - 1);
+  }
+  constexpr std::uint64_t kAll = ~std::uint64_t{0}, kRows = kAll / 0xff;  // a bit for each row
+  const std::uint64_t row = 0xffu >> (kBrick - 1 - last[0] + first[0]) << first[0];
+  const std::uint64_t rows = kRows >> kBrick * (kBrick - 1 - last[1] + first[1]) << kBrick * first[1];
+  std::uint64_t mixed = 0;
+  for (int k = first[2]; k <= last[2]; ++k) {
+    mixed |= cell_sides_[static_cast<std::size_t>(entry) * kBrick + static_cast<std::size_t>(k)].mixed;
+  }
+  return (mixed & row * rows) != 0;
+}
+
 float BrickField::threshold() const {
   const float nearest = static_cast<float>(level_);
   return nearest <= level_ ? nearest : std::nextafter(nearest, -std::numeric_limits<float>::infinity());

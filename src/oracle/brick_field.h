@@ -55,6 +55,8 @@ class BrickField {
   CellSamples cell_samples(const std::array<int, 3>& cell) const;
   /// Whether all of a cell's samples are on one side, and so the cell, or it is mixed.
   State cell_state(const std::array<int, 3>& cell) const;
+  /// False only if no cell of the box between two is mixed, these included. Boxes wider than a brick are not looked into.
+  bool may_be_mixed(const std::array<int, 3>& a, const std::array<int, 3>& b) const;
   /// Clamped below the last sample, so that points on the upper faces have a cell too. pre: contains(u).
   std::array<int, 3> cell_of(const Point3& u) const {
     return {std::min(static_cast<int>(u.x), size_[0] - 2), std::min(static_cast<int>(u.y), size_[1] - 2),
@@ -104,6 +106,8 @@ class BrickField {
     std::uint64_t inside;  ///< all of its samples are
     std::uint64_t mixed;   ///< some are
   };
+  bool any_mixed_in_brick(const std::array<int, 3>& brick, const std::array<int, 3>& low,
+                          const std::array<int, 3>& high) const;
   void find_sides(const Volume& volume, const LevelSet& level_set);
   void find_cell_sides(const std::array<int, 3>& brick, LayerSides* layers) const;
   template <class Visit>

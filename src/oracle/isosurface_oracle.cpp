@@ -255,6 +255,7 @@ std::vector<Point3> IsosurfaceOracle::intersect_all(const Point3& world_a, const
   std::vector<Point3> result;
   Point3 a = to_grid_(world_a), b = to_grid_(world_b);
   if (!(field_->contains(a) && field_->contains(b)) && !clip(a, b)) return result;
+  if (!field_->may_be_mixed(field_->cell_of(a), field_->cell_of(b))) return result;
   const Vector3 ab = b - a;
   CellWalk walk(a, ab);
   double value = std::numeric_limits<double>::quiet_NaN();  // nobody asks for it before a cell is crossed

@@ -105,7 +105,11 @@ INSTANTIATE_TEST_SUITE_P(Balls, KnownTetsTest, testing::Values(1, 2, 5));
 TEST_P(KnownTetsTest, AreWhatInsertingTheirPointsEndsIn) {
   ASSERT_GT(known_.points.size(), 20u);
   ASSERT_NE(complex(part_), complex(whole_));
-  ASSERT_TRUE(part_.replace(known_));
+  const auto stamp = part_.replace(known_);
+  ASSERT_TRUE(stamp);
+  std::size_t with_stamp = 0;
+  test::for_each_cell(part_, [&](CellId cell) { with_stamp += part_.stamp(cell) == *stamp ? 1u : 0u; });
+  EXPECT_EQ(with_stamp, tets_.size());
   EXPECT_EQ(complex(part_), complex(whole_));
   EXPECT_EQ(part_.vertex_count(), whole_.vertex_count());
   test::expect_delaunay(part_);

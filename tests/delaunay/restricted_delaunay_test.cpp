@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "delaunay/restricted_triangles.h"
 #include "delaunay_checks.h"
 #include "support/random.h"
 #include "support/shapes.h"
@@ -391,6 +392,25 @@ std::set<std::array<VertexId, 3>> triangles_with_balls(const RestrictedDelaunay&
     }
   });
   return triangles;
+}
+
+TEST_P(RestrictedDelaunaySuite, RestrictedTrianglesAreFoundByTheirBalls) {
+  const auto oracle = two_balls();
+  RestrictedDelaunay delaunay(*oracle);
+  Random random(6);
+  std::vector<Point3> points;
+  for (int n = 0; n < 400; ++n) points.push_back(GetParam().next(random));
+  delaunay.insert_seeds(points);
+  test::compute_all_balls(delaunay);
+  std::vector<FacetId> found;
+  for_each_triangle_with_ball(delaunay, 0, delaunay.cell_capacity(), [&](FacetId facet) { found.push_back(facet); });
+  const std::vector<FacetId> all = restricted_triangles(delaunay);
+  ASSERT_EQ(found.size(), all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_EQ(found[i].cell, all[i].cell);
+    EXPECT_EQ(found[i].index, all[i].index);
+  }
+  EXPECT_GT(all.size(), 20u);
 }
 
 // Umbrellas are looked at again where these were, and where new balls come to be.

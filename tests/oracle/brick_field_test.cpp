@@ -106,6 +106,34 @@ TEST(BrickField, EqualsNaiveTrilinearInterpolationWhereMostBricksArePure) {
   expect_agreement(make_phantom("gyroid", test::cubic_image(41)), {0.3, true});
 }
 
+TEST(BrickField, TellsWhichBoxesHaveMixedCells) {
+  const Volume volume = make_phantom("shells", test::cubic_image(45));
+  const BrickField field(volume, LevelSet({0, false}));
+  test::Random random(3);
+  std::array<int, 2> counts{};
+  for (int n = 0; n < 20000; ++n) {
+    std::array<int, 3> a, b, cell;
+    bool wide = false;
+    for (int axis = 0; axis < 3; ++axis) {
+      const int last = field.size()[axis] - 2;
+      a[axis] = random.below(last + 1);
+      b[axis] = std::clamp(a[axis] + random.below(n % 10 == 0 ? 25 : 7) - (n % 10 == 0 ? 12 : 3), 0, last);
+      wide |= std::abs(a[axis] - b[axis]) > BrickField::kBrick;
+    }
+    bool mixed = wide;
+    for (cell[2] = std::min(a[2], b[2]); cell[2] <= std::max(a[2], b[2]) && !mixed; ++cell[2]) {
+      for (cell[1] = std::min(a[1], b[1]); cell[1] <= std::max(a[1], b[1]); ++cell[1]) {
+        for (cell[0] = std::min(a[0], b[0]); cell[0] <= std::max(a[0], b[0]); ++cell[0]) {
+          mixed |= field.cell_state(cell) == BrickField::State::kMixed;
+        }
+      }
+    }
+    ASSERT_EQ(field.may_be_mixed(a, b), mixed);
+    ++counts[mixed];
+  }
+  EXPECT_GT(std::min(counts[0], counts[1]), 2000);
+}
+
 TEST(BrickField, IsContinuousAcrossBrickFaces) {
   const Volume volume = make_phantom("gyroid", test::cubic_image(40));
   const BrickField field(volume, LevelSet(Isosurface{0, false}));
