@@ -26,26 +26,26 @@ struct Costs {
 };
 
 constexpr Costs kSurfaceCosts{
-    .vertices = {.surface = 0.85},
-    .triangles = {.surface = 1.7},
+    .vertices = {.surface = 0.72},
+    .triangles = {.surface = 1.44},
     .tets = {},
     .seconds = {.surface = 6e-6, .thin = 9e-6, .samples = 0.07e-6},
     .bytes = {.surface = 640, .samples = 13, .constant = 1e6},
 };
 // With an interior lattice, most of which goes in without insertion.
 constexpr Costs kTetCosts{
-    .vertices = {.surface = 0.53, .graded = 0.6, .volume = 0.68},
-    .triangles = {.surface = 1.72},
-    .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.13},
+    .vertices = {.surface = 0.51, .graded = 0.25, .volume = 0.66},
+    .triangles = {.surface = 1.68, .graded = -0.48},
+    .tets = {.surface = 0.6, .graded = 2, .volume = 4},
     .seconds =
         {.surface = 8e-6, .graded = 2.8e-6, .volume = 2.6e-6, .deep = -1e-6, .thin = 12e-6, .samples = 0.15e-6},
     .bytes = {.surface = 510, .graded = 365, .volume = 420, .samples = 27},
 };
 // Without, where the cell size varies.
 constexpr Costs kVaryingTetCosts{
-    .vertices = {.surface = 0.53, .graded = 0.6, .volume = 0.75},
-    .triangles = {.surface = 1.72},
-    .tets = {.surface = 0.62, .graded = 3.2, .volume = 4.75},
+    .vertices = {.surface = 0.51, .graded = 0.25, .volume = 0.75},
+    .triangles = {.surface = 1.68, .graded = -0.48},
+    .tets = {.surface = 0.6, .graded = 2, .volume = 4.75},
     .seconds = {.surface = 13e-6, .graded = 5e-6, .volume = 7e-6, .thin = 20e-6, .samples = 0.2e-6},
     .bytes = {.surface = 510, .graded = 365, .volume = 620, .samples = 27},
 };

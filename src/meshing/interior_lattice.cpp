@@ -20,6 +20,9 @@ namespace {
 constexpr double kCube = 1.45;
 /// A tet's circumsphere reaches 0.654 cubes from its corners at most: no vertex that far from all sites disturbs it.
 constexpr double kClearance = 0.68;
+/// Sites nearer to the surface than that, but no nearer than this, have tets of other shapes around them. They stand
+/// where refinement would else put vertices of its own, one by one.
+constexpr double kNearest = 0.5;
 constexpr double kJitter = 0.01;
 constexpr double kMostSites = 1 << 28;
 /// Cubes all around, so that a site inside has all of its neighbours.
@@ -90,7 +93,7 @@ bool InteriorLattice::block_near_surface(const RestrictedDelaunay& delaunay) {
   const bool any = any_of_chunks(delaunay.vertex_capacity(), [&](VertexId v) {
     if (delaunay.kind(v) != VertexKind::kSurface) return false;
     has_blocked_[v] = 1;
-    return block_around(delaunay.point(v), kClearance * cube_);
+    return block_around_vertex(delaunay.point(v));
   });
   constexpr CellId kAhead = 16;
   const auto cells = static_cast<CellId>(delaunay.cell_capacity());
@@ -110,7 +113,7 @@ bool InteriorLattice::block_near_new_cells(const RestrictedDelaunay& delaunay) {
     for (VertexId v : delaunay.vertices(cell)) {
       if (delaunay.kind(v) != VertexKind::kSurface || has_blocked_[v] != 0) continue;
       has_blocked_[v] = 1;
-      any |= block_around(delaunay.point(v), kClearance * cube_);
+      any |= block_around_vertex(delaunay.point(v));
     }
   }
   return any;
@@ -122,15 +125,20 @@ bool InteriorLattice::block_near_balls(const RestrictedDelaunay& delaunay, CellI
   if (!delaunay.has_balls(cell) || delaunay.label(cell) == 0) return false;
   for (int i = 0; i < 4; ++i) {
     const SurfaceBall* ball = delaunay.ball({cell, i});
-    if (ball != nullptr) any |= block_around(ball->center, std::sqrt(ball->squared_radius));
+    if (ball == nullptr) continue;
+    const double radius = std::sqrt(ball->squared_radius) / cube_;
+    any |= block_around(ball->center, radius, radius);
   }
   return any;
 }
 
-/// Beside others of its kind: whoever blocks a site writes the same.
-bool InteriorLattice::block_around(const Point3& p, double radius) {
+bool InteriorLattice::block_around_vertex(const Point3& p) { return block_around(p, kNearest, kClearance); }
+
+/// Sites at up to one distance are blocked, those at up to the other are near, both in cubes. True if that changed any.
+/// Beside others of its kind.
+bool InteriorLattice::block_around(const Point3& p, double blocked, double near) {
   bool any = false;
-  const double reach = radius / cube_ + 2 * kJitter;  // in cubes, as all here
+  const double reach = near + 2 * kJitter, block = blocked + 2 * kJitter;
   const Point3 at = (1 / cube_) * (p - origin_);
   for (const bool centre : {false, true}) {
     const Point3 u = centre ? at - Vector3{0.5, 0.5, 0.5} : at;
@@ -142,11 +150,12 @@ bool InteriorLattice::block_around(const Point3& p, double radius) {
     for (std::int64_t k = first[2]; k <= last[2]; ++k) {
       const double dz = static_cast<double>(k) - u.z;
       for (std::int64_t j = first[1]; j <= last[1]; ++j) {
-        const double dy = static_cast<double>(j) - u.y, left = reach * reach - dy * dy - dz * dz;
+        const double dy = static_cast<double>(j) - u.y;
         const Site row = (centre ? cubes_ : 0) + static_cast<Site>(k * stride_[2] + j * stride_[1]);
         for (std::int64_t i = first[0]; i <= last[0]; ++i) {
-          const double dx = static_cast<double>(i) - u.x;
-          if (dx * dx <= left) any |= block(row + static_cast<Site>(i));
+          const double dx = static_cast<double>(i) - u.x, squared = dx * dx + dy * dy + dz * dz;
+          if (squared > reach * reach) continue;
+          any |= lower(row + static_cast<Site>(i), squared <= block * block ? kBlocked : kNear);
         }
       }
     }
@@ -154,11 +163,14 @@ bool InteriorLattice::block_around(const Point3& p, double radius) {
   return any;
 }
 
-bool InteriorLattice::block(Site site) {
+/// Where others may do the same: the lowest wins.
+bool InteriorLattice::lower(Site site, State to) {
   const std::atomic_ref<std::uint8_t> state(state_[site]);
-  if (state.load(std::memory_order_relaxed) == kBlocked) return false;
-  state.store(kBlocked, std::memory_order_relaxed);
-  return true;
+  std::uint8_t known = state.load(std::memory_order_relaxed);
+  while (known > to) {
+    if (state.compare_exchange_weak(known, to, std::memory_order_relaxed)) return true;
+  }
+  return false;
 }
 
 Point3 InteriorLattice::point(Site site) const {
@@ -174,16 +186,16 @@ Point3 InteriorLattice::point(Site site) const {
   return p;
 }
 
-/// Is one of the 14 sites around it, with which it shares tets, blocked or outside?
-bool InteriorLattice::touches_blocked(Site site) const {
+/// Is one of the 14 sites around it, with which it shares tets, near the surface or outside?
+bool InteriorLattice::touches_surface(Site site) const {
   for (Site step : stride_) {
-    if (state_of(site - step) == kBlocked || state_of(site + step) == kBlocked) return true;
+    if (state_of(site - step) <= kNear || state_of(site + step) <= kNear) return true;
   }
   // The other kind's sites around a centre are its cube's corners, those around a corner lie the other way.
   const Site low = is_centre(site) ? site - cubes_ : site + cubes_ - stride_[0] - stride_[1] - stride_[2];
   for (int corner = 0; corner < 8; ++corner) {
     const Site other = low + (corner & 1) * stride_[0] + (corner >> 1 & 1) * stride_[1] + (corner >> 2) * stride_[2];
-    if (state_of(other) == kBlocked) return true;
+    if (state_of(other) <= kNear) return true;
   }
   return false;
 }
@@ -192,8 +204,8 @@ void InteriorLattice::find_depths() {
   for_each_chunk(inside_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       std::uint8_t& state = state_[inside_[i]];
-      if (state != kDeep || !touches_blocked(inside_[i])) continue;
-      std::atomic_ref(state).store(kShell, std::memory_order_relaxed);  // others only ask whether it is blocked
+      if (state != kDeep || !touches_surface(inside_[i])) continue;
+      std::atomic_ref(state).store(kShell, std::memory_order_relaxed);  // others only ask whether it is lower
     }
   });
   std::vector<ShellSite> known;
@@ -202,7 +214,7 @@ void InteriorLattice::find_depths() {
   auto next_known = known.begin();
   for (Site s : inside_) {
     if (state_[s] == kDeep) deep_.push_back(s);
-    if (state_[s] != kShell) continue;
+    if (state_[s] != kShell && state_[s] != kNear) continue;
     while (next_known != known.end() && next_known->site < s) ++next_known;
     const bool is_known = next_known != known.end() && next_known->site == s;
     shell_.push_back({s, is_known ? next_known->vertex : kNone});
@@ -237,7 +249,7 @@ bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
   const bool removed = block_removed(delaunay), nearer = block_near_new_cells(delaunay);
   if (!removed && !nearer) return false;
   for (Site s : inside_) {
-    if (state_[s] != kBlocked) state_[s] = kDeep;
+    if (state_[s] == kShell) state_[s] = kDeep;
   }
   find_depths();
   return true;
@@ -246,7 +258,7 @@ bool InteriorLattice::adapt(const RestrictedDelaunay& delaunay) {
 std::uint32_t InteriorLattice::add_deep(RestrictedDelaunay& delaunay) const {
   std::vector<Site> corners;
   std::copy_if(inside_.begin(), inside_.end(), std::back_inserter(corners),
-               [this](Site site) { return !is_centre(site) && state_[site] != kBlocked; });
+               [this](Site site) { return !is_centre(site) && state_[site] >= kShell; });
   auto next_vertex = static_cast<VertexId>(delaunay.vertex_capacity());
   std::vector<VertexId> vertex_of(state_.size(), kNone);
   std::vector<Label> labels;

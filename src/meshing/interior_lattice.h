@@ -16,8 +16,9 @@ namespace delvox {
 /// hundredth of its spacing. Its Delaunay tetrahedra have dihedral angles of 60 and 90 degrees, and no other lattice
 /// site comes near their circumspheres: most of a body needs neither refinement nor insertion. Not in the book.
 ///
-/// Sites beside one that is blocked or outside (the shell) are to be inserted. Around the others, the deep ones, all
-/// tets are the lattice's: these are Delaunay whatever lies beyond the shell, and go into the triangulation as they are.
+/// Sites near the surface, and those beside one that is, or that is blocked or outside, are to be inserted (the shell).
+/// Around the others, the deep ones, all tets are the lattice's: these are Delaunay whatever lies beyond the shell, and
+/// go into the triangulation as they are.
 class InteriorLattice {
  public:
   using Site = LatticeTets::Site;
@@ -49,17 +50,18 @@ class InteriorLattice {
   std::uint32_t add_deep(RestrictedDelaunay& delaunay) const;
 
  private:
-  enum State : std::uint8_t { kBlocked, kShell, kDeep };
+  enum State : std::uint8_t { kBlocked, kNear, kShell, kDeep };
 
   bool lay_out(const RestrictedDelaunay& delaunay);
   bool find_inside(const RestrictedDelaunay& delaunay, const GoOn& go_on);
   bool block_near_surface(const RestrictedDelaunay& delaunay);
   bool block_near_new_cells(const RestrictedDelaunay& delaunay);
   bool block_near_balls(const RestrictedDelaunay& delaunay, CellId cell);
-  bool block_around(const Point3& p, double radius);
-  bool block(Site site);
+  bool block_around_vertex(const Point3& p);
+  bool block_around(const Point3& p, double blocked, double near);
+  bool lower(Site site, State to);
   bool block_removed(const RestrictedDelaunay& delaunay);
-  bool touches_blocked(Site site) const;
+  bool touches_surface(Site site) const;
 
   /// As others may be changing it.
   std::uint8_t state_of(Site site) const {

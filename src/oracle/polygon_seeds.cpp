@@ -9,8 +9,6 @@
 namespace delvox {
 namespace {
 
-/// Seeds lie this much denser than the wanted spacing, so that refinement starts from a nearly finished sample.
-constexpr double kDensity = 0.9;
 /// A component is spanned by this many spacings at least.
 constexpr double kSpacingsPerComponent = 3;
 /// Candidates per square of the spacing; more would hardly fill the gaps any better.
@@ -41,7 +39,7 @@ class SeedMaker {
     for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
       for (int i = 0; i < 3; ++i) boxes[surface_.component_of[t]].extend(surface_.corner(t, i));
     }
-    double usual = kDensity * size_.minimum(), largest = 0;
+    double usual = size_.minimum(), largest = 0;
     for (std::uint32_t c = 0; c < surface_.components; ++c) {
       extents_[c] = boxes[c].diagonal();
       largest = std::max(largest, extents_[c]);
@@ -59,7 +57,7 @@ class SeedMaker {
   }
 
   double spacing_at(const Point3& p, double extent) const {
-    return std::min(kDensity * size_(p), extent / kSpacingsPerComponent);
+    return std::min(size_(p), extent / kSpacingsPerComponent);
   }
 
   void add(const Point3& p, double extent) {
@@ -72,7 +70,7 @@ class SeedMaker {
   void add_points_of(std::uint32_t t, double extent) {
     const Point3 &a = surface_.corner(t, 0), &b = surface_.corner(t, 1), &c = surface_.corner(t, 2);
     const double longest = std::max({distance(a, b), distance(b, c), distance(c, a)});
-    const double least = std::min(kDensity * size_.minimum(), extent / kSpacingsPerComponent);
+    const double least = std::min(size_.minimum(), extent / kSpacingsPerComponent);
     if (longest <= least) return;
     const double spacing = size_.constant() ? least : std::min({spacing_at(a, extent), spacing_at(b, extent),
                                                                 spacing_at(c, extent), spacing_at((1.0 / 3) * (a + b + c), extent)});

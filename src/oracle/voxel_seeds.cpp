@@ -16,8 +16,6 @@ namespace {
 
 using Index3 = std::array<int, 3>;
 
-/// Seeds lie this much denser than the wanted spacing, so that refinement starts from a nearly finished sample.
-constexpr double kDensity = 0.9;
 /// Candidates per square of the spacing that thinning starts from; more would hardly fill the gaps any better.
 constexpr double kCandidatesPerSquare = 6;
 /// A component keeps all its crossings if it has no more than this.
@@ -41,9 +39,9 @@ struct Candidate {
   double late_jitter = 0;   // once it is kept, moved off the edge by up to this; 0 if it was already
 };
 
-/// Some mixed bricks, and the number of the first of their crossings.
+/// Some mixed bricks, and the number of the first of their crossings, and of the first beyond.
 struct Chunk {
-  std::size_t first_brick = 0, end_brick = 0, first_crossing = 0;
+  std::size_t first_brick = 0, end_brick = 0, first_crossing = 0, end_crossing = 0;
 };
 
 /// Walks over the crossings brick by brick and keeps nothing of them but the seeds: candidates are made in parallel,
@@ -56,10 +54,10 @@ class SeedMaker {
         size_(size),
         go_on_(go_on),
         found_(find_components(field, go_on)),
-        thinner_(kDensity * size.minimum()) {
+        thinner_(size.minimum()) {
     for (int axis = 0; axis < 3; ++axis) steps_[axis] = norm(to_world_.column(axis));
     voxel_ = std::min({steps_.x, steps_.y, steps_.z});
-    least_spacing_ = kDensity * size.minimum();
+    least_spacing_ = size.minimum();
     for (const SurfaceComponents::Component& c : found_.components) {
       if (c.crossings > kFewCrossings) least_spacing_ = std::min(least_spacing_, diagonal(c) / 3);
     }
@@ -93,11 +91,12 @@ class SeedMaker {
     std::size_t crossings = 0;
     field_.for_each_mixed_brick([&](const Index3& brick) {
       if (chunks.empty() || crossings - chunks.back().first_crossing >= most) {
-        chunks.push_back({bricks_.size(), bricks_.size(), crossings});
+        chunks.push_back({bricks_.size(), bricks_.size(), crossings, crossings});
       }
       crossings += found_.in_brick[bricks_.size()];
       bricks_.push_back(brick);
       chunks.back().end_brick = bricks_.size();
+      chunks.back().end_crossing = crossings;
     });
     return chunks;
   }
@@ -109,6 +108,8 @@ class SeedMaker {
 
   std::vector<Candidate> candidates_of(const Chunk& chunk) const {
     std::vector<Candidate> candidates;
+    const bool all_are = least_spacing_ <= 2 * voxel_;  // else most are turned away
+    if (all_are) candidates.reserve((chunk.end_crossing - chunk.first_crossing) * copies_at(least_spacing_));
     const std::uint32_t* component = found_.of_crossing.data() + chunk.first_crossing;
     for (std::size_t n = chunk.first_brick; n < chunk.end_brick; ++n) {
       for_each_crossed_edge(field_, bricks_[n], BrickEdges(field_, bricks_[n]),
@@ -126,9 +127,9 @@ class SeedMaker {
     }
     // Most are turned away by their hash, if the spacing is wide, before anything is computed.
     const double draw = unit_interval(hash_edge(edge, 0));
-    if (!drawn(draw, std::min(kDensity * size_.minimum(), extent / 3), extent)) return;
+    if (!drawn(draw, std::min(size_.minimum(), extent / 3), extent)) return;
     const Point3 crossing = edge.point(field_.level());
-    const double spacing = std::min(kDensity * size_(to_world_(crossing)), extent / 3);
+    const double spacing = std::min(size_(to_world_(crossing)), extent / 3);
     if (!size_.constant() && !drawn(draw, spacing, extent)) return;
     if (spacing > 2 * voxel_) {
       // Jittered after thinning: few are kept. Moved by more than a small part of their spacing, some would come so

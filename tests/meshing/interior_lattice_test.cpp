@@ -79,16 +79,20 @@ TEST_P(InteriorLatticeTest, SitesLieInsideClearOfTheSurfaceAndItsBalls) {
       if (const SurfaceBall* ball = delaunay_.ball({cell, i})) balls.push_back(*ball);
     }
   });
-  double nearest = Box3::kInfinity;
+  const auto nearest = [&](const Point3& p) {
+    double least = Box3::kInfinity;
+    for (const Point3& q : surface_points_) least = std::min(least, distance(p, q));
+    return least;
+  };
   for (const InteriorLattice::ShellSite& shell : lattice.shell()) {
     const Point3 p = lattice.point(shell.site);
     EXPECT_EQ(shell.vertex, kNone);
     EXPECT_EQ(oracle_->label(p), 1);
-    for (const Point3& q : surface_points_) nearest = std::min(nearest, distance(p, q));
+    EXPECT_GT(nearest(p), 0.7 * kCellSize);
     for (const SurfaceBall& ball : balls) EXPECT_GT(squared_distance(p, ball.center), ball.squared_radius);
   }
   // Farther than the circumradius of a lattice tet: its sphere then holds no vertex of the surface.
-  EXPECT_GT(nearest, 0.9 * kCellSize);
+  for (InteriorLattice::Site deep : lattice.deep()) EXPECT_GT(nearest(lattice.point(deep)), 0.9 * kCellSize);
 }
 
 TEST_P(InteriorLatticeTest, AddingTheDeepSitesWithTheirTetsEndsInWhatInsertingThemDoes) {
