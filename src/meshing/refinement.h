@@ -120,6 +120,7 @@ class Refinement {
   // Lanes (refinement_lanes.cpp)
   static bool enough_for_lanes(std::size_t waiting);
   void run_lanes(RefinementQueues& aside);
+  void place_vertices();
   void sort_by_place();
   void keep_to_budget();
   void run_alone(std::size_t at_least);
@@ -270,6 +271,7 @@ class Refinement {
   bool persistent_gone_ = false;
   bool leaves_dense_ = false;
   RefinementQueues queues_;
+  std::vector<std::uint32_t> places_;  // of vertices along a curve
   std::array<RefinementLane, kLanes> lanes_;
   std::vector<VertexId> dirty_;
   std::vector<std::uint8_t> is_dirty_;

@@ -77,13 +77,29 @@ void Refinement::refine() {
 /// are to be looked at one after the other; tets, which are fewer, by their cells, made along such a curve in their time.
 /// Entries that are dead by now may come anywhere.
 void Refinement::sort_by_place() {
-  const Box3 box = oracle_.bounds();
+  place_vertices();
   const auto place = [&](const RefinementQueues::WaitingFacet& waiting) {
-    return place_along_curve(delaunay_.point(delaunay_.vertices(waiting.facet.cell)[0]), box);
+    return std::uint64_t{places_[delaunay_.vertices(waiting.facet.cell)[0]]};
   };
   const auto cell = [](const RefinementQueues::WaitingTet& waiting) { return std::uint64_t{waiting.cell}; };
   sort_by(place, queues_.facets, queues_.next_facet);
   sort_by(cell, queues_.tets, 0);
+}
+
+/// Finds out where along the curve the vertices are that have come since. One that has got the number of another keeps
+/// the other's place: entries there come at a less fitting time.
+void Refinement::place_vertices() {
+  constexpr std::size_t kChunk = 4096;
+  constexpr int kUnusedBits = 4;  // of 36: the rest fits into half the memory
+  const Box3 box = oracle_.bounds();
+  const std::size_t known = places_.size();
+  places_.resize(delaunay_.vertex_capacity());
+  for_each_chunk(places_.size() - known, kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = known + begin; v < known + end; ++v) {
+      const std::uint64_t place = place_along_curve(delaunay_.point(static_cast<VertexId>(v)), box);
+      places_[v] = static_cast<std::uint32_t>(place >> kUnusedBits);
+    }
+  });
 }
 
 /// Gives each lane its share of what waits, and lets them work until half of them have nothing left.
@@ -173,6 +189,7 @@ void Refinement::retire() {
   clear(lanes_);
   clear(dirty_);
   clear(is_dirty_);
+  clear(places_);
   clear(watch_);
   clear(landmark_places_);
   clear(since_edges_);

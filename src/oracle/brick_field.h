@@ -76,6 +76,8 @@ class BrickField {
     const State side = cell_state(cell_of(u));
     return side == State::kMixed ? sample(u).inside() : side == State::kInside;
   }
+  /// Whether values are known there. pre: contains(u).
+  bool in_mixed_brick(const Point3& u) const { return entry_of(cell_of(u)) >= 0; }
   /// Gradient in grid coordinates, zero in pure bricks. pre: contains(u).
   Vector3 gradient(const Point3& u) const;
   double level() const { return level_; }

@@ -165,18 +165,14 @@ bool IsosurfaceOracle::clip(Point3& a, Point3& b) const {
 }
 
 Point3 IsosurfaceOracle::crossing_between(Point3 a, Point3 b) const {
-  BrickField::Sample at_a = field_->sample(a), at_b = field_->sample(b);
-  const bool a_inside = at_a.inside();
+  const bool a_inside = field_->inside(a);
   // Bisect on labels until both ends are within a voxel and have known values (pure bricks only know their side).
-  while (squared_distance(a, b) > 1 || !at_a.known || !at_b.known) {
+  while (squared_distance(a, b) > 1 || !field_->in_mixed_brick(a) || !field_->in_mixed_brick(b)) {
     const Point3 middle = midpoint(a, b);
     if (middle == a || middle == b) break;
-    const BrickField::Sample at_middle = field_->sample(middle);
-    const bool beside_a = at_middle.inside() == a_inside;
-    (beside_a ? a : b) = middle;
-    (beside_a ? at_a : at_b) = at_middle;
+    (field_->inside(middle) == a_inside ? a : b) = middle;
   }
-  return crossing_within_voxel(a, at_a.value, b, at_b.value);
+  return crossing_within_voxel(a, field_->value(a), b, field_->value(b));
 }
 
 /// Between the planes of samples that the segment crosses, one along each axis at most, it is in one cell.
