@@ -25,13 +25,11 @@ void Refinement::keep_features(double longest, bool solid) {
 /// these as from each other. A component without sharp edges keeps at least one seed, though segments of others give
 /// way.
 void Refinement::insert_seeds_beside_features(const Seeds& seeds, const GoOn& go_on) {
-  constexpr double kDensity = 0.9;  // as among seeds
-  const auto spacing = [&](const Point3& p) { return kDensity * surface_.size(p); };
-  PoissonThinner thinner(kDensity * surface_.size.minimum());
+  PoissonThinner thinner(surface_.size.minimum());
   std::vector<Point3> points;
   for (std::uint32_t n = 0; n < features_->node_count(); ++n) {
     points.push_back(features_->node(n));
-    thinner.add(points.back(), spacing(points.back()));
+    thinner.add(points.back(), surface_.size(points.back()));
   }
   for (const Point3& p : mirrored_points(*features_, oracle_, solid_, thinner, go_on)) points.push_back(p);
   std::vector<bool> sharp(seeds.components, false), met(seeds.components, false);
@@ -39,7 +37,7 @@ void Refinement::insert_seeds_beside_features(const Seeds& seeds, const GoOn& go
   for (std::size_t i = 0; i < seeds.points.size(); ++i) {
     const Point3& p = seeds.points[i];
     const std::uint32_t component = seeds.component_of[i];
-    if (features_->encroached_by(p) || (sharp[component] && !thinner.has_room(p, spacing(p)))) continue;
+    if (features_->encroached_by(p) || (sharp[component] && !thinner.has_room(p, surface_.size(p)))) continue;
     met[component] = true;
     points.push_back(p);
   }

@@ -45,8 +45,8 @@ class InteriorLattice {
   /// inserted, and moves the shell inward there. False if there is none.
   bool adapt(const RestrictedDelaunay& delaunay);
   const std::vector<Site>& deep() const { return deep_; }
-  /// Adds the deep sites and their tets to the triangulation; returns the tets' stamp, 0 if they have none of their own.
-  /// pre: all of shell() have their vertices.
+  /// Adds the deep sites and their tets to the triangulation; returns the tets' stamp, 0 if they have none of their
+  /// own. pre: all of shell() have their vertices.
   std::uint32_t add_deep(RestrictedDelaunay& delaunay) const;
 
  private:

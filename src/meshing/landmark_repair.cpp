@@ -119,8 +119,9 @@ void Refinement::follow_links(std::span<const std::uint32_t> links, std::vector<
     const auto [a, b] = watch_.link(links[n]);
     const CellId first = cell_of_landmark({a}, hint), last = cell_of_landmark({b}, first);
     hint = last;
-    if (first == last) return std::nullopt;
-    return Walk{LinkWalk(delaunay_, watch_.point(a), watch_.point(b), first), last, delaunay_.label(first), n};
+    if (first == last || watch_.point(a) == watch_.point(b)) return std::nullopt;
+    const LinkWalk on_link(delaunay_, watch_.point(a), watch_.point(b), first);
+    return Walk{on_link, last, delaunay_.label(first), n};
   };
   const auto step = [&](Walk& walk) {
     const CellId cell = walk.on_link.cell();

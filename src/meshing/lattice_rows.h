@@ -9,8 +9,8 @@
 
 namespace delvox {
 
-/// Parallel lines along x through a body-centred lattice of ny by nz cubes: first those through corners, at y = origin.y
-/// + j * step, z likewise with k, then as many half a step further, through centres. j is fastest.
+/// Parallel lines along x through a body-centred lattice of ny by nz cubes: first those through corners, at
+/// y = origin.y + j * step, z likewise with k, then as many half a step further, through centres. j is fastest.
 struct LatticeRows {
   Point3 origin;
   double step = 1;

@@ -42,7 +42,7 @@ class LinkWalk {
     const double start = entered_.cell == kNone ? 0 : std::max(0.0, where(entered_));
     if (!(start < 1)) return std::nullopt;
     const int facet = way_out();
-    const double end = facet < 0 ? 1 : std::min(1.0, where({cell_, facet}));
+    const double end = facet < 0 ? 1 : std::clamp(where({cell_, facet}), start, 1.0);
     return a_ + (0.5 * (start + end)) * along_;
   }
 
@@ -55,14 +55,15 @@ class LinkWalk {
       x[i] = dot(right_, from_a);
       y[i] = dot(up_, from_a);
     }
-    // Without branches: which it is cannot be foreseen.
-    const auto on_left = [&](int i, int j) { return static_cast<unsigned>(x[i] * y[j] - y[i] * x[j] >= 0); };
+    // Without branches: which it is cannot be foreseen. A facet that is seen edge on has no area.
+    const auto area = [&](int i, int j) { return x[i] * y[j] - y[i] * x[j]; };
     unsigned ways = 0;
     for (int i = 0; i < 4; ++i) {
       const auto& corners = kTetFaces[i];
-      const unsigned is_way =
-          on_left(corners[0], corners[1]) & on_left(corners[1], corners[2]) & on_left(corners[2], corners[0]);
-      ways |= (is_way & static_cast<unsigned>(delaunay_->neighbors(cell_)[i] != entered_.cell)) << i;
+      const double first = area(corners[0], corners[1]), second = area(corners[1], corners[2]),
+                   third = area(corners[2], corners[0]);
+      const bool is_way = (first >= 0) & (second >= 0) & (third >= 0) & (first + second + third > 0);
+      ways |= static_cast<unsigned>(is_way & (delaunay_->neighbors(cell_)[i] != entered_.cell)) << i;
     }
     return ways == 0 ? -1 : std::countr_zero(ways);
   }

@@ -73,9 +73,9 @@ void Refinement::refine() {
   }
 }
 
-/// So that each lane gets a place of its own: facets along a curve through space, as those of the same cells and vertices
-/// are to be looked at one after the other; tets, which are fewer, by their cells, made along such a curve in their time.
-/// Entries that are dead by now may come anywhere.
+/// So that each lane gets a place of its own: facets along a curve through space, as those of the same cells and
+/// vertices are to be looked at one after the other; tets, which are fewer, by their cells, made along such a curve in
+/// their time. Entries that are dead by now may come anywhere.
 void Refinement::sort_by_place() {
   place_vertices();
   const auto place = [&](const RefinementQueues::WaitingFacet& waiting) {
@@ -86,8 +86,8 @@ void Refinement::sort_by_place() {
   sort_by(cell, queues_.tets, 0);
 }
 
-/// Finds out where along the curve the vertices are that have come since. One that has got the number of another keeps
-/// the other's place: entries there come at a less fitting time.
+/// Finds out where along the curve the vertices are that have come since. Where a number is given to another vertex
+/// later, or had none yet, its place is not true: entries there come at a less fitting time.
 void Refinement::place_vertices() {
   constexpr std::size_t kChunk = 4096;
   constexpr int kUnusedBits = 4;  // of 36: the rest fits into half the memory
@@ -229,16 +229,21 @@ std::optional<bool> Refinement::leaves_to_features(const RefinementQueues::Waiti
   const bool exempt = ball.squared_radius <= size * size && touches_feature(waiting.facet);
   const AtFeature at = at_feature(ball.center, exempt, segment);
   if (at == AtFeature::kClear) return std::nullopt;
-  if (at == AtFeature::kLeave) {
-    const bool known = delaunay_.ball(waiting.facet) != nullptr;
-    if (!known && delaunay_.bipolar(waiting.facet)) lane.judged.push_back({waiting, ball, false});
+  const auto leave = [&] {
+    const bool alive = delaunay_.alive(waiting.facet.cell, waiting.stamp);
+    const bool in_want = alive && delaunay_.bipolar(waiting.facet) && delaunay_.ball(waiting.facet) == nullptr;
+    if (in_want) lane.judged.push_back({waiting, ball, false});
+    queues.pop_facet();
+    return true;
+  };
+  if (at == AtFeature::kLeave) return leave();
+  if (alone && !lane.judged.empty()) return false;
+  if (!alone) {
+    lane.aside.facets.push_back(waiting);
     queues.pop_facet();
     return true;
   }
-  if (alone && !lane.judged.empty()) return false;
-  if (!alone) lane.aside.facets.push_back(waiting);
-  if (!alone || !budget_left() || !split_feature(segment)) queues.pop_facet();
-  return true;
+  return budget_left() && split_feature(segment) ? true : leave();
 }
 
 /// Asks for the cells of facets that will be looked at soon, then for those beyond.

@@ -183,7 +183,7 @@ bool Refinement::repair_topology() {
   for (VertexId vertex : round) is_dirty_[vertex] = 0;
   std::erase_if(round, [this](VertexId vertex) { return delaunay_.kind(vertex) != VertexKind::kSurface; });
   if (wants_smooth()) since_smooth_.insert(since_smooth_.end(), round.begin(), round.end());
-  if (!surface_.topo_disk) return false;
+  if (!surface_.topo_disk || !budget_left()) return false;
   for (VertexId vertex : without_disk(delaunay_, round)) {
     if (!budget_left()) return inserted;
     inserted |= repair_umbrella(vertex, !watch_.empty());
@@ -281,7 +281,7 @@ void Refinement::report_unmet() {
     tell("persistent triangle", stays(triangle), triangle.points[0], "refinement was stuck without its vertices",
          false);
   }
-  if (expected_topology_ && broken == 0 && !budget_.exhausted() && topology() != *expected_topology_) {
+  if (expected_topology_ && broken == 0 && queues_.facets_waiting() == 0 && topology() != *expected_topology_) {
     tell("topology", 1, std::nullopt,
          "components or Euler number differ from the voxels': some neck or gap is too thin to be found", false);
   }

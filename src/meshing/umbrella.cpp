@@ -5,6 +5,7 @@
 #include <atomic>
 #include <span>
 
+#include "core/page_array.h"
 #include "core/parallel.h"
 #include "delaunay/restricted_triangles.h"
 
@@ -60,38 +61,37 @@ class TrianglesAt {
  public:
   explicit TrianglesAt(const RestrictedDelaunay& delaunay) : first_(delaunay.vertex_capacity(), kNone) {
     constexpr std::size_t kChunk = 1 << 13;
-    const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Listed>& found) {
-      for_each_triangle_with_ball(delaunay, begin, end, [&](FacetId f) { found.push_back({delaunay.vertices(f), {}}); });
+    const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Corners>& found) {
+      for_each_triangle_with_ball(delaunay, begin, end, [&](FacetId f) { found.push_back(delaunay.vertices(f)); });
     };
-    triangles_ = gather_chunks<Listed>(delaunay.cell_capacity(), kChunk, collect);
+    triangles_ = gather_chunks<Corners>(delaunay.cell_capacity(), kChunk, collect);
+    next_.grow_to(3 * triangles_.size());
     for_each_chunk(triangles_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-          std::atomic_ref first(first_[triangles_[t].vertices[k]]);
-          triangles_[t].next[k] = first.exchange(static_cast<std::uint32_t>(3 * t + k), std::memory_order_relaxed);
+          std::atomic_ref first(first_[triangles_[t][k]]);
+          next_[3 * t + k] = first.exchange(static_cast<std::uint32_t>(3 * t + k), std::memory_order_relaxed);
         }
       }
     });
   }
 
   void prefetch(VertexId vertex) const {
-    if (first_[vertex] != kNone) __builtin_prefetch(&triangles_[first_[vertex] / 3]);
+    if (first_[vertex] == kNone) return;
+    __builtin_prefetch(&triangles_[first_[vertex] / 3]);
+    next_.prefetch(first_[vertex]);
   }
   void find_link(VertexId vertex, std::vector<LinkEdge>& link) const {
-    for (std::uint32_t corner = first_[vertex]; corner != kNone;) {
-      const Listed& triangle = triangles_[corner / 3];
-      link.push_back(opposite(triangle.vertices, static_cast<int>(corner % 3)));
-      corner = triangle.next[corner % 3];
+    for (std::uint32_t corner = first_[vertex]; corner != kNone; corner = next_[corner]) {
+      link.push_back(opposite(triangles_[corner / 3], static_cast<int>(corner % 3)));
     }
   }
 
  private:
-  struct Listed {
-    std::array<VertexId, 3> vertices;
-    std::array<std::uint32_t, 3> next;  // at the same vertex: three times a triangle's number, plus its corner there
-  };
-  std::vector<Listed> triangles_;
+  using Corners = std::array<VertexId, 3>;
+  std::vector<Corners> triangles_;
   std::vector<std::uint32_t> first_;
+  PageArray<std::uint32_t> next_;  // PageArray: its pages go back at once
 };
 
 }  // namespace

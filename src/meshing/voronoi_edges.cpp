@@ -108,7 +108,8 @@ std::optional<Point3> Refinement::crossing_of_excursion(FacetId facet, const Ora
   const Circumsphere &at_a = delaunay_.sphere(facet.cell), &at_b = delaunay_.sphere(neighbor);
   const double shortest = shortest_excursion_ * surface_.size.minimum();
   if (squared_distance(at_a.center, at_b.center) <= shortest * shortest) return std::nullopt;
-  // Every voxel that the surface runs through has an edge that it crosses, and there are seeds within a size of that.
+  // Every voxel that the surface runs through has an edge that it crosses, and there are seeds within two sizes of
+  // that.
   const double reach = 2 * watch_.longest_link() + 2 * surface_.size.maximum();
   const Point3& corner = delaunay_.point(vertices[0]);
   Point3 a = at_a.center, b = at_b.center;
@@ -126,7 +127,7 @@ std::optional<Point3> Refinement::crossing_of_excursion(FacetId facet, const Ora
 /// as that takes few vertices.
 bool Refinement::look_closer() {
   constexpr double kShortestOfAll = 0.001;
-  if (!surface_.size.constant()) return false;  // where the mesh is coarse it may differ
+  if (!surface_.size.constant() || !budget_left()) return false;  // where the mesh is coarse it may differ
   if (!looks_closer_) {
     looks_closer_ = true;
     expected_topology_ = oracle_.topology();

@@ -141,7 +141,8 @@ bool BrickField::may_be_mixed(const std::array<int, 3>& a, const std::array<int,
 }
 
 /// Of the box's cells, those of one brick. A layer's are asked for at once.
-bool BrickField::any_mixed_in_brick(const std::array<int, 3>& brick, const std::array<int, 3>& low, const std::array<int, 3>& high) const {
+bool BrickField::any_mixed_in_brick(const std::array<int, 3>& brick, const std::array<int, 3>& low,
+                                    const std::array<int, 3>& high) const {
   const std::int32_t entry = table_[brick_index(brick)];
   if (entry < 0) return false;
   std::array<int, 3> first, last;

@@ -55,7 +55,8 @@ class BrickField {
   CellSamples cell_samples(const std::array<int, 3>& cell) const;
   /// Whether all of a cell's samples are on one side, and so the cell, or it is mixed.
   State cell_state(const std::array<int, 3>& cell) const;
-  /// False only if no cell of the box between two is mixed, these included. Boxes wider than a brick are not looked into.
+  /// False only if no cell of the box between two is mixed, these included. Boxes wider than a brick are not looked
+  /// into.
   bool may_be_mixed(const std::array<int, 3>& a, const std::array<int, 3>& b) const;
   /// Clamped below the last sample, so that points on the upper faces have a cell too. pre: contains(u).
   std::array<int, 3> cell_of(const Point3& u) const {
@@ -63,18 +64,11 @@ class BrickField {
             std::min(static_cast<int>(u.z), size_[2] - 2)};
   }
 
-  /// Trilinear value minus level. In pure bricks only its sign is known: `value` is a large number of that sign.
-  struct Sample {
-    double value;
-    bool known;
-    bool inside() const { return value > 0; }
-  };
-  /// pre: contains(u).
-  Sample sample(const Point3& u) const;
-  double value(const Point3& u) const { return sample(u).value; }
+  /// Trilinear value minus level. In pure bricks only its sign is known: a large number of that sign. pre: contains(u).
+  double value(const Point3& u) const;
   bool inside(const Point3& u) const {
     const State side = cell_state(cell_of(u));
-    return side == State::kMixed ? sample(u).inside() : side == State::kInside;
+    return side == State::kMixed ? value(u) > 0 : side == State::kInside;
   }
   /// Whether values are known there. pre: contains(u).
   bool in_mixed_brick(const Point3& u) const { return entry_of(cell_of(u)) >= 0; }
@@ -151,16 +145,16 @@ inline BrickField::State BrickField::cell_state(const std::array<int, 3>& cell) 
   return (layer.inside >> bit & 1) != 0 ? State::kInside : State::kOutside;
 }
 
-inline BrickField::Sample BrickField::sample(const Point3& u) const {
+inline double BrickField::value(const Point3& u) const {
   constexpr double kFarFromLevel = 1e30;
   const std::array<int, 3> cell = cell_of(u);
   const std::int32_t entry = entry_of(cell);
-  if (entry < 0) return {entry == kInsideBrick ? kFarFromLevel : -kFarFromLevel, false};
+  if (entry < 0) return entry == kInsideBrick ? kFarFromLevel : -kFarFromLevel;
   constexpr int kRow = kBlock, kSlice = kBlock * kBlock;
   const float* s = lowest_sample(entry, cell);
   const std::array<double, 8> corners{s[0],      s[1],          s[kRow],          s[kRow + 1],
                                       s[kSlice], s[kSlice + 1], s[kSlice + kRow], s[kSlice + kRow + 1]};
-  return {trilinear(corners, u.x - cell[0], u.y - cell[1], u.z - cell[2]) - level_, true};
+  return trilinear(corners, u.x - cell[0], u.y - cell[1], u.z - cell[2]) - level_;
 }
 
 }  // namespace delvox

@@ -323,7 +323,7 @@ TEST_P(OracleSuite, SeedsAreSpacedAsAskedAndLeaveNoGap) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) closest = std::min(closest, distance(points[i], points[j]));
     }
-    // Candidates keep 0.9 of the spacing before they are moved off the grid lines by up to a quarter of it each.
+    // Candidates keep the spacing before they are moved off the grid lines by up to a quarter of it each.
     EXPECT_GT(closest, 0.25 * spacing) << spacing;
     test::Random random(11);
     double widest = 0;
