@@ -50,6 +50,8 @@ class InteriorLattice {
   std::uint32_t add_deep(RestrictedDelaunay& delaunay) const;
 
  private:
+  /// kBlocked: not to be a vertex, or outside; kNear and kShell: to be inserted, kNear with tets that are none of the
+  /// lattice's.
   enum State : std::uint8_t { kBlocked, kNear, kShell, kDeep };
 
   bool lay_out(const RestrictedDelaunay& delaunay);

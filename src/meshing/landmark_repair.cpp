@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <optional>
-#include <utility>
 
 #include "core/parallel.h"
 #include "core/take_turns.h"
@@ -125,7 +124,8 @@ void Refinement::follow_links(std::span<const std::uint32_t> links, std::vector<
   };
   const auto step = [&](Walk& walk) {
     const CellId cell = walk.on_link.cell();
-    if (std::exchange(walk.has_asked, !walk.has_asked) == false) {
+    walk.has_asked = !walk.has_asked;
+    if (walk.has_asked) {
       delaunay_.prefetch_vertices(cell);
       return true;
     }

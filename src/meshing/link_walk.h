@@ -42,7 +42,7 @@ class LinkWalk {
     const double start = entered_.cell == kNone ? 0 : std::max(0.0, where(entered_));
     if (!(start < 1)) return std::nullopt;
     const int facet = way_out();
-    const double end = facet < 0 ? 1 : std::clamp(where({cell_, facet}), start, 1.0);
+    const double end = facet < 0 ? 1 : std::max(start, std::min(1.0, where({cell_, facet})));
     return a_ + (0.5 * (start + end)) * along_;
   }
 
@@ -67,7 +67,8 @@ class LinkWalk {
     }
     return ways == 0 ? -1 : std::countr_zero(ways);
   }
-  /// Where the segment meets the facet's plane, as a part of its length.
+  /// Where the segment meets the facet's plane, as a part of its length. No number at all if it lies in it but for
+  /// rounding: std::min and std::max above then keep their first argument.
   double where(FacetId facet) const {
     const auto v = delaunay_->vertices(facet);
     const Point3& p = delaunay_->point(v[0]);

@@ -234,16 +234,18 @@ std::optional<bool> Refinement::leaves_to_features(const RefinementQueues::Waiti
     const bool in_want = alive && delaunay_.bipolar(waiting.facet) && delaunay_.ball(waiting.facet) == nullptr;
     if (in_want) lane.judged.push_back({waiting, ball, false});
     queues.pop_facet();
-    return true;
   };
-  if (at == AtFeature::kLeave) return leave();
-  if (alone && !lane.judged.empty()) return false;
-  if (!alone) {
+  if (at == AtFeature::kLeave) {
+    leave();
+  } else if (!alone) {
     lane.aside.facets.push_back(waiting);
     queues.pop_facet();
-    return true;
+  } else if (!lane.judged.empty()) {
+    return false;
+  } else if (!budget_left() || !split_feature(segment)) {
+    leave();
   }
-  return budget_left() && split_feature(segment) ? true : leave();
+  return true;
 }
 
 /// Asks for the cells of facets that will be looked at soon, then for those beyond.
