@@ -26,6 +26,10 @@ Team::~Team() {
 }
 
 void Team::for_each(std::size_t count, const std::function<void(std::size_t)>& work) {
+  if (alone()) {
+    for (std::size_t i = 0; i < count; ++i) work(i);
+    return;
+  }
   work_ = &work;
   done_ = 0;
   const std::uint32_t round = rounds_.load() + 1;

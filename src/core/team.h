@@ -21,6 +21,9 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
+  /// Is the calling thread the only one?
+  bool alone() const { return members_.empty(); }
+
   /// Calls work(i) for each i below count, by all threads; returns once all is done. Throws what work throws, of several
   /// one. pre: count < 2^16.
   void for_each(std::size_t count, const std::function<void(std::size_t)>& work);

@@ -125,7 +125,7 @@ bool Delaunay3::is_vertex_of(CellId cell, const Point3& p) const {
   return std::any_of(v.begin(), v.end(), [&](VertexId vertex) { return point(vertex) == p; });
 }
 
-void Delaunay3::find_zone(const Point3& p, CellId start, Star& star, StarSearch& search) const {
+void Delaunay3::grow_zone(const Point3& p, CellId start, Star& star, StarSearch& search) const {
   constexpr std::uint32_t kOuter = 0, kInZone = 1;
   search.met.clear();
   search.entered.clear();
@@ -178,7 +178,7 @@ CellId Delaunay3::nearest_hint(const Point3& p, const std::vector<CellId>& hints
   return living != kNone ? living : cell_of(0);
 }
 
-void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star, StarSearch& search) const {
+void Delaunay3::find_zone(const Point3& p, CellId hint, Star& star, StarSearch& search) const {
   star.apex = p;
   star.duplicate = false;
   star.zone.clear();
@@ -189,7 +189,10 @@ void Delaunay3::evaluate(const Point3& p, CellId hint, Star& star, StarSearch& s
     star.duplicate = true;
     return;
   }
-  find_zone(p, hint, star, search);
+  grow_zone(p, hint, star, search);
+}
+
+void Delaunay3::find_tets(Star& star, StarSearch& search) const {
   search.edges.match(star);
   search.spheres.find(star, search.edges.names(), [this](VertexId v) -> const Point3& { return point(v); });
 }

@@ -90,7 +90,14 @@ class Delaunay3 {
   CellId nearest_hint(const Point3& p, const std::vector<CellId>& hints) const;
   /// What would inserting p do? Labels of the star are not set. `hint` is a cell near p.
   void evaluate(const Point3& p, CellId hint, Star& star) const { evaluate(p, hint, star, search_); }
-  void evaluate(const Point3& p, CellId hint, Star& star, StarSearch& search) const;
+  void evaluate(const Point3& p, CellId hint, Star& star, StarSearch& search) const {
+    find_zone(p, hint, star, search);
+    if (!star.duplicate) find_tets(star, search);
+  }
+  /// The first half of that: the zone, and what of the star's tets does not lie at the apex.
+  void find_zone(const Point3& p, CellId hint, Star& star, StarSearch& search) const;
+  /// The other half. pre: the search is as find_zone() has left it, !star.duplicate.
+  void find_tets(Star& star, StarSearch& search) const;
   /// Inserts the apex of a star; `created` receives the new cells in the order of the star's tets, with the apex as
   /// their first vertex. pre: !star.duplicate, no change since it was evaluated.
   VertexId commit(const Star& star, std::vector<CellId>& created);
@@ -161,7 +168,7 @@ class Delaunay3 {
   bool in_conflict_exactly(CellId cell, const Point3& p) const;
   bool is_vertex_of(CellId cell, const Point3& p) const;
   bool is_beyond(FacetId facet, const Point3& p) const;
-  void find_zone(const Point3& p, CellId start, Star& star, StarSearch& search) const;
+  void grow_zone(const Point3& p, CellId start, Star& star, StarSearch& search) const;
   VertexId new_vertex();
   CellId new_cell();
   void grow_cells(std::size_t count);

@@ -136,7 +136,12 @@ const Star& RestrictedDelaunay::evaluate(const Point3& p, CellId hint) {
 }
 
 void RestrictedDelaunay::evaluate(const Point3& p, CellId hint, Worker& worker, Star& star) const {
-  delaunay_.evaluate(p, hint, star, worker.search);
+  find_zone(p, hint, worker, star);
+  if (!star.duplicate) find_tets(worker, star);
+}
+
+void RestrictedDelaunay::find_tets(Worker& worker, Star& star) const {
+  delaunay_.find_tets(star, worker.search);
   for (Star::Tet& tet : star.tets) {
     const auto& v = tet.vertices;
     tet.label = label_of({v[0], v[0], v[1], v[2]}, tet.sphere, *worker.oracle);

@@ -143,6 +143,11 @@ class RestrictedDelaunay {
   /// The calling thread's own.
   Worker& worker() const { return workers_.local(); }
   void evaluate(const Point3& p, CellId hint, Worker& worker, Star& star) const;
+  /// In two halves, as Delaunay3 does.
+  void find_zone(const Point3& p, CellId hint, Worker& worker, Star& star) const {
+    delaunay_.find_zone(p, hint, star, worker.search);
+  }
+  void find_tets(Worker& worker, Star& star) const;
   static constexpr std::size_t kMostLanes = Delaunay3::kMostClaims;
   std::uint32_t new_claims() { return delaunay_.new_claims(); }
   std::uint32_t new_claim() { return delaunay_.new_claim(); }

@@ -104,6 +104,11 @@ class Refinement {
     CellId cell;
     std::uint32_t stamp;
   };
+  /// A surface ball that a circumcentre encroaches on, and a cell near its centre.
+  struct EncroachedBall {
+    SurfaceBall ball;
+    CellId near = kNone;
+  };
   /// A matter of the mesh alone, never of the number of threads.
   static constexpr std::size_t kLanes = 8;
   static_assert(kLanes <= RestrictedDelaunay::kMostLanes);
@@ -246,8 +251,8 @@ class Refinement {
                                          RefinementLane& lane, RefinementQueues& queues, bool alone);
   bool leaves_to_features(const RefinementQueues::WaitingTet& waiting, const Point3& p, RefinementLane& lane,
                           RefinementQueues& queues, bool alone);
-  bool find_encroached_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const;
-  bool find_new_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const;
+  bool find_encroached_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const;
+  void find_new_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const;
 
   const Oracle& oracle_;
   SurfaceCriteria surface_;

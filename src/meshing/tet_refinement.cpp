@@ -55,15 +55,16 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   const Point3 z = delaunay_.sphere(waiting.cell).center;
   Star& star = lane.lane.star;
   VertexKind kind = VertexKind::kInterior;  // 7(b)
-  delaunay_.evaluate(z, waiting.cell, worker, star);
+  delaunay_.find_zone(z, waiting.cell, worker, star);
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
-  SurfaceBall ball;
-  if (!star.duplicate &&
-      (find_encroached_ball(star, *worker.oracle, ball) || find_new_ball(star, *worker.oracle, ball))) {
-    kind = VertexKind::kSurface;
+  EncroachedBall found;
+  if (!star.duplicate && !find_encroached_ball(star, *worker.oracle, found)) {
+    delaunay_.find_tets(worker, star);
+    find_new_ball(star, *worker.oracle, found);
   }
-  if (leaves_to_features(waiting, kind == VertexKind::kSurface ? ball.center : z, lane, queues, alone)) return;
-  if (kind == VertexKind::kSurface) delaunay_.evaluate(ball.center, star.zone.front(), worker, star);
+  if (found.ball.squared_radius > 0) kind = VertexKind::kSurface;
+  if (leaves_to_features(waiting, kind == VertexKind::kSurface ? found.ball.center : z, lane, queues, alone)) return;
+  if (kind == VertexKind::kSurface) delaunay_.evaluate(found.ball.center, found.near, worker, star);
   if (star.duplicate) {
     ++lane.stuck;
     lane.stuck_place = z;
@@ -88,14 +89,14 @@ bool Refinement::leaves_to_features(const RefinementQueues::WaitingTet& waiting,
   return true;
 }
 
-/// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z.
-bool Refinement::find_encroached_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const {
-  const auto consider = [&](const Point3& center, double squared_radius) {
-    if (squared_radius <= largest.squared_radius || squared_distance(center, star.apex) >= squared_radius) return;
-    largest = {center, squared_radius};
-  };
+/// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z. True if there is one.
+bool Refinement::find_encroached_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const {
   for (CellId cell : star.zone) {
     if (!delaunay_.has_balls(cell)) continue;
+    const auto consider = [&](const Point3& center, double squared_radius) {
+      if (squared_radius <= largest.ball.squared_radius || squared_distance(center, star.apex) >= squared_radius) return;
+      largest = {{center, squared_radius}, cell};
+    };
     for (int i = 0; i < 4; ++i) {
       const SurfaceBall* ball = delaunay_.ball({cell, i});
       if (ball == nullptr) continue;
@@ -107,15 +108,15 @@ bool Refinement::find_encroached_ball(const Star& star, const Oracle& oracle, Su
       }
     }
   }
-  return largest.squared_radius > 0;
+  return largest.ball.squared_radius > 0;
 }
 
 /// Of the restricted triangles that the star would have and the mesh has not. Facets on the boundary of its zone keep a
 /// part of their dual edges, which may be bipolar where the whole was not.
-bool Refinement::find_new_ball(const Star& star, const Oracle& oracle, SurfaceBall& largest) const {
+void Refinement::find_new_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const {
   const auto consider = [&](const Point3& center, const Point3& corner) {
     const double squared_radius = squared_distance(center, corner);
-    if (squared_radius > largest.squared_radius) largest = {center, squared_radius};
+    if (squared_radius > largest.ball.squared_radius) largest = {{center, squared_radius}, star.zone.front()};
   };
   bool uniform = variant_.restricted == Restricted::kBipolar;
   for (const Star::Tet& tet : star.tets) {
@@ -126,7 +127,7 @@ bool Refinement::find_new_ball(const Star& star, const Oracle& oracle, SurfaceBa
                                                tet.sphere.center, tet.label, oracle),
              delaunay_.point(tet.vertices[0]));
   }
-  if (uniform) return largest.squared_radius > 0;
+  if (uniform) return;
   for (std::uint32_t t = 0; t < star.tets.size(); ++t) {
     const Star::Tet& a = star.tets[t];
     for (int i = 0; i < 3; ++i) {
@@ -141,7 +142,6 @@ bool Refinement::find_new_ball(const Star& star, const Oracle& oracle, SurfaceBa
       for (const Point3& center : oracle.intersect_all(a.sphere.center, b.sphere.center)) consider(center, star.apex);
     }
   }
-  return largest.squared_radius > 0;
 }
 
 }  // namespace delvox
