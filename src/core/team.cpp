@@ -5,6 +5,8 @@
 namespace delvox {
 namespace {
 
+constexpr int kSpins = 20000;  // some hundred microseconds
+
 /// Lets the processor know that this is a loop that waits.
 void pause() {
 #if defined(__x86_64__)
@@ -37,7 +39,8 @@ void Team::for_each(std::size_t count, const std::function<void(std::size_t)>& w
   rounds_ = round;
   rounds_.notify_all();
   take_part();
-  while (done_.load() < count) std::this_thread::yield();
+  // Others are about to end their last pieces: to ask the system for anything would take longer.
+  for (int spin = 0; done_.load() < count; ++spin) spin < kSpins ? pause() : std::this_thread::yield();
   if (failed_.exchange(false)) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 
@@ -61,7 +64,6 @@ void Team::do_piece(std::size_t i) {
 }
 
 void Team::serve() {
-  constexpr int kSpins = 20000;  // some tens of microseconds
   std::uint32_t seen = 0;
   while (true) {
     for (int spin = 0; spin < kSpins && rounds_.load() == seen; ++spin) pause();

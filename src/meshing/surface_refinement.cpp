@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -33,18 +34,19 @@ Refinement::Refinement(const Oracle& oracle, const SurfaceCriteria& surface, con
 }
 
 void Refinement::enqueue(std::span<const CellId> created, std::uint32_t oldest, RefinementQueues& queues) const {
+  // A ball that outlives its cell may be one that is to be split, and waited with that, of tets or once Quality began.
+  const bool may_wait = tet_criteria_ != nullptr || !persistent_.empty();
   for (CellId cell : created) {
     const std::uint32_t stamp = delaunay_.stamp(cell);
     if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) queues.tets.push_back({cell, stamp});
-    for (int i = 0; i < 4; ++i) {
-      const FacetId facet{cell, i};
-      if (!may_be_restricted(facet)) continue;
-      // A ball that outlives its cell may be one that is to be split, and waited with that, of tets or once Quality
-      // began.
+    // Which facets are bipolar cannot be foreseen: they are found without branches.
+    unsigned facets = 0;
+    for (int i = 0; i < 4; ++i) facets |= static_cast<unsigned>(may_be_restricted({cell, i})) << i;
+    for (; facets != 0; facets &= facets - 1) {
+      const FacetId facet{cell, std::countr_zero(facets)};
       const SurfaceBall* ball = delaunay_.ball(facet);
-      const bool may_wait = tet_criteria_ != nullptr || !persistent_.empty();
       if (ball != nullptr && (!may_wait || judge(facet, *ball) != Verdict::kSplit)) continue;
-      const CellId neighbor = delaunay_.neighbors(cell)[i];
+      const CellId neighbor = delaunay_.neighbors(cell)[facet.index];
       const bool met_from_there = neighbor < cell && delaunay_.stamp(neighbor) >= oldest;
       if (!met_from_there) queues.facets.push_back({facet, stamp});
     }

@@ -25,11 +25,15 @@ void Refinement::watch_tets(const TetCriteria& criteria) {
   tet_criteria_ = &criteria;
   give_back_freed_memory();  // what seeds and lattice took, while the mesh was small
   constexpr std::size_t kChunk = 4096;
+  constexpr CellId kAhead = 8;
+  const auto in_question = [&](CellId cell) {
+    const std::uint32_t stamp = delaunay_.stamp(cell);
+    return stamp != 0 && stamp != lattice_stamp_ && delaunay_.label(cell) != 0;
+  };
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<RefinementQueues::WaitingTet>& found) {
     for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
-      const std::uint32_t stamp = delaunay_.stamp(cell);
-      const bool in_question = stamp != 0 && stamp != lattice_stamp_ && delaunay_.label(cell) != 0;
-      if (in_question && bad(cell)) found.push_back({cell, stamp});
+      if (cell + kAhead < end && in_question(cell + kAhead)) delaunay_.prefetch_vertices(cell + kAhead);
+      if (in_question(cell) && bad(cell)) found.push_back({cell, delaunay_.stamp(cell)});
     }
   };
   queues_.tets = gather_chunks<RefinementQueues::WaitingTet>(delaunay_.cell_capacity(), kChunk, collect);

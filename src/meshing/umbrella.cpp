@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "core/page_array.h"
 #include "core/parallel.h"
+#include "core/take_turns.h"
 #include "delaunay/restricted_triangles.h"
 
 namespace delvox {
@@ -66,26 +69,47 @@ class TrianglesAt {
     };
     triangles_ = gather_chunks<Corners>(delaunay.cell_capacity(), kChunk, collect);
     next_.grow_to(3 * triangles_.size());
+    const bool alone = thread_count() == 1;  // the processor has to be asked for nothing special then
     for_each_chunk(triangles_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         for (std::size_t k = 0; k < 3; ++k) {
-          std::atomic_ref first(first_[triangles_[t][k]]);
-          next_[3 * t + k] = first.exchange(static_cast<std::uint32_t>(3 * t + k), std::memory_order_relaxed);
+          const auto corner = static_cast<std::uint32_t>(3 * t + k);
+          std::uint32_t& first = first_[triangles_[t][k]];
+          next_[corner] = alone ? std::exchange(first, corner)
+                                : std::atomic_ref(first).exchange(corner, std::memory_order_relaxed);
         }
       }
     });
   }
 
-  void prefetch(VertexId vertex) const {
-    if (first_[vertex] == kNone) return;
-    __builtin_prefetch(&triangles_[first_[vertex] / 3]);
-    next_.prefetch(first_[vertex]);
-  }
-  void find_link(VertexId vertex, std::vector<LinkEdge>& link) const {
-    for (std::uint32_t corner = first_[vertex]; corner != kNone; corner = next_[corner]) {
-      link.push_back(opposite(triangles_[corner / 3], static_cast<int>(corner % 3)));
+  /// Gathers the link of a vertex, a triangle at a time.
+  class Walk {
+   public:
+    static constexpr std::size_t kMost = 24;
+
+    Walk(const TrianglesAt& all, VertexId vertex) : all_(&all), corner_(all.first_[vertex]) { look_ahead(); }
+    /// False if there are no more triangles, or too many.
+    bool next() {
+      if (corner_ == kNone || count_ == kMost) return false;
+      link_[count_++] = opposite(all_->triangles_[corner_ / 3], static_cast<int>(corner_ % 3));
+      corner_ = all_->next_[corner_];
+      look_ahead();
+      return true;
     }
-  }
+    bool too_many() const { return corner_ != kNone; }
+    std::span<const LinkEdge> link() const { return {link_.data(), count_}; }
+
+   private:
+    void look_ahead() const {
+      if (corner_ == kNone) return;
+      __builtin_prefetch(&all_->triangles_[corner_ / 3]);
+      all_->next_.prefetch(corner_);
+    }
+    const TrianglesAt* all_;
+    std::uint32_t corner_;
+    std::size_t count_ = 0;
+    std::array<LinkEdge, kMost> link_;
+  };
 
  private:
   using Corners = std::array<VertexId, 3>;
@@ -93,6 +117,45 @@ class TrianglesAt {
   std::vector<std::uint32_t> first_;
   PageArray<std::uint32_t> next_;  // PageArray: its pages go back at once
 };
+
+std::vector<VertexId> by_walks_around(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
+  constexpr std::size_t kChunk = 256, kVertices = 8, kCells = 4;
+  return gather_chunks<VertexId>(vertices.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
+    std::vector<LinkEdge> link;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (i + kVertices < end) delaunay.prefetch_vertex(vertices[i + kVertices]);
+      if (i + kCells < end) delaunay.prefetch(delaunay.cell_of(vertices[i + kCells]));
+      link.clear();
+      for_each_triangle_at(delaunay, vertices[i], [&](FacetId, const LinkEdge& edge) { link.push_back(edge); });
+      if (!is_one_cycle(link)) found.push_back(vertices[i]);
+    }
+  });
+}
+
+std::vector<VertexId> by_a_sweep(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
+  constexpr std::size_t kChunk = 1024;
+  struct Turn {
+    std::size_t number;
+    TrianglesAt::Walk walk;
+  };
+  const TrianglesAt triangles(delaunay);
+  return gather_chunks<VertexId>(vertices.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
+    std::vector<std::size_t> broken;
+    const auto start = [&](std::size_t n) {
+      return std::optional(Turn{begin + n, TrianglesAt::Walk(triangles, vertices[begin + n])});
+    };
+    const auto step = [&](Turn& turn) {
+      if (turn.walk.next()) return true;
+      const bool disk = turn.walk.too_many() ? find_umbrella(delaunay, vertices[turn.number]).disk
+                                             : is_one_cycle(turn.walk.link());
+      if (!disk) broken.push_back(turn.number);
+      return false;
+    };
+    take_turns(end - begin, start, step);
+    std::sort(broken.begin(), broken.end());
+    for (std::size_t number : broken) found.push_back(vertices[number]);
+  });
+}
 
 }  // namespace
 
@@ -109,32 +172,8 @@ Umbrella find_umbrella(const RestrictedDelaunay& delaunay, VertexId vertex) {
 
 std::vector<VertexId> without_disk(const RestrictedDelaunay& delaunay, const std::vector<VertexId>& vertices) {
   constexpr std::size_t kSweepPays = 14;  // a sweep costs about as much as walking around a vertex in so many
-  constexpr std::size_t kChunk = 256, kVertices = 8, kCells = 4;
-  const auto select = [&](const auto& prefetch, const auto& find_link) {
-    return gather_chunks<VertexId>(vertices.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
-      std::vector<LinkEdge> link;
-      for (std::size_t i = begin; i < end; ++i) {
-        prefetch(i, end);
-        link.clear();
-        find_link(vertices[i], link);
-        if (!is_one_cycle(link)) found.push_back(vertices[i]);
-      }
-    });
-  };
-  if (vertices.size() * kSweepPays < delaunay.vertex_capacity()) {
-    const auto prefetch = [&](std::size_t i, std::size_t end) {
-      if (i + kVertices < end) delaunay.prefetch_vertex(vertices[i + kVertices]);
-      if (i + kCells < end) delaunay.prefetch(delaunay.cell_of(vertices[i + kCells]));
-    };
-    return select(prefetch, [&](VertexId v, std::vector<LinkEdge>& link) {
-      for_each_triangle_at(delaunay, v, [&](FacetId, const LinkEdge& edge) { link.push_back(edge); });
-    });
-  }
-  const TrianglesAt triangles(delaunay);
-  const auto prefetch = [&](std::size_t i, std::size_t end) {
-    if (i + kVertices < end) triangles.prefetch(vertices[i + kVertices]);
-  };
-  return select(prefetch, [&](VertexId v, std::vector<LinkEdge>& link) { triangles.find_link(v, link); });
+  return vertices.size() * kSweepPays < delaunay.vertex_capacity() ? by_walks_around(delaunay, vertices)
+                                                                   : by_a_sweep(delaunay, vertices);
 }
 
 }  // namespace delvox
