@@ -125,6 +125,8 @@ class RestrictedDelaunay {
 
   /// What would inserting p do? `hint` is a cell near p. The reference is valid until the next call.
   const Star& evaluate(const Point3& p, CellId hint);
+  /// The star evaluated last.
+  const Star& star() const { return lane_.star; }
   /// Inserts the apex of the star evaluated last; created() holds the new cells. pre: !star.duplicate.
   VertexId commit(VertexKind kind);
   /// Removes an interior vertex; created() holds the cells that fill the hole.

@@ -84,7 +84,9 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
       too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;
   }
   if (too_near) return false;
-  if (!insert_surface_point(p, star.zone.front())) return false;
+  const auto encroached = features_ ? features_->encroached_by(p) : std::nullopt;
+  if (encroached && !split_feature(*encroached)) return false;
+  if (!encroached) insert_apex();
   ++report_.topology_insertions;
   return true;
 }

@@ -155,6 +155,7 @@ class Refinement {
   Verdict judge(FacetId facet, const SurfaceBall& ball) const;
   std::optional<VertexId> insert_surface_point(const Point3& p, CellId hint);
   std::optional<VertexId> insert_on_surface(const Point3& p, CellId hint);
+  VertexId insert_apex();
   void mark_dirty(const std::array<VertexId, 3>& triangle);
   void mark_dirty(VertexId vertex);
   /// Umbrellas change only where triangles lose their balls or get new ones.
@@ -251,7 +252,9 @@ class Refinement {
                                          RefinementLane& lane, RefinementQueues& queues, bool alone);
   bool leaves_to_features(const RefinementQueues::WaitingTet& waiting, const Point3& p, RefinementLane& lane,
                           RefinementQueues& queues, bool alone);
-  bool find_encroached_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const;
+  EncroachedBall encroached_ball_beside(CellId cell, const Oracle& oracle) const;
+  void find_encroached_ball(const Point3& z, std::span<const CellId> cells, const Oracle& oracle,
+                            EncroachedBall& largest) const;
   void find_new_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const;
 
   const Oracle& oracle_;

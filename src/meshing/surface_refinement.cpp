@@ -155,7 +155,12 @@ std::optional<VertexId> Refinement::insert_on_surface(const Point3& p, CellId hi
     stuck_place_ = p;
     return std::nullopt;
   }
-  const Box3 changing = watch_.empty() ? Box3{} : box_of_change(star);
+  return insert_apex();
+}
+
+/// Of the star that was evaluated last, which is no duplicate.
+VertexId Refinement::insert_apex() {
+  const Box3 changing = watch_.empty() ? Box3{} : box_of_change(delaunay_.star());
   const VertexId inserted = delaunay_.commit(VertexKind::kSurface);
   mark_lost_dirty();
   if (!watch_.empty()) note_change(changing, inserted);

@@ -58,11 +58,15 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   if (!delaunay_.alive(waiting.cell, waiting.stamp)) return queues.tets.pop_back();
   const Point3 z = delaunay_.sphere(waiting.cell).center;
   Star& star = lane.lane.star;
+  star.duplicate = false;
   VertexKind kind = VertexKind::kInterior;  // 7(b)
-  delaunay_.find_zone(z, waiting.cell, worker, star);
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
-  EncroachedBall found;
-  if (!star.duplicate && !find_encroached_ball(star, *worker.oracle, found)) {
+  EncroachedBall found = encroached_ball_beside(waiting.cell, *worker.oracle);
+  if (found.ball.squared_radius == 0) {
+    delaunay_.find_zone(z, waiting.cell, worker, star);
+    find_encroached_ball(z, {star.zone.begin(), star.zone.size()}, *worker.oracle, found);
+  }
+  if (!star.duplicate && found.ball.squared_radius == 0) {
     delaunay_.find_tets(worker, star);
     find_new_ball(star, *worker.oracle, found);
   }
@@ -93,12 +97,23 @@ bool Refinement::leaves_to_features(const RefinementQueues::WaitingTet& waiting,
   return true;
 }
 
-/// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z. True if there is one.
-bool Refinement::find_encroached_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const {
-  for (CellId cell : star.zone) {
+/// A surface ball that contains a cell's circumcentre, of its facets or of its neighbours': most that contain it are
+/// met here, with no search for the zone.
+Refinement::EncroachedBall Refinement::encroached_ball_beside(CellId cell, const Oracle& oracle) const {
+  const auto& beside = delaunay_.neighbors(cell);
+  const std::array<CellId, 5> around{cell, beside[0], beside[1], beside[2], beside[3]};
+  EncroachedBall largest;
+  find_encroached_ball(delaunay_.sphere(cell).center, around, oracle, largest);
+  return largest;
+}
+
+/// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z, one of these cells.
+void Refinement::find_encroached_ball(const Point3& z, std::span<const CellId> cells, const Oracle& oracle,
+                                      EncroachedBall& largest) const {
+  for (CellId cell : cells) {
     if (!delaunay_.has_balls(cell)) continue;
     const auto consider = [&](const Point3& center, double squared_radius) {
-      if (squared_radius <= largest.ball.squared_radius || squared_distance(center, star.apex) >= squared_radius) return;
+      if (squared_radius <= largest.ball.squared_radius || squared_distance(center, z) >= squared_radius) return;
       largest = {{center, squared_radius}, cell};
     };
     for (int i = 0; i < 4; ++i) {
@@ -112,7 +127,6 @@ bool Refinement::find_encroached_ball(const Star& star, const Oracle& oracle, En
       }
     }
   }
-  return largest.ball.squared_radius > 0;
 }
 
 /// Of the restricted triangles that the star would have and the mesh has not. Facets on the boundary of its zone keep a
