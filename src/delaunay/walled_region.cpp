@@ -83,8 +83,10 @@ std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const 
   constexpr std::uint8_t kInside = 1 << 4;  // beside a bit for each facet that is a wall
   std::vector<std::uint8_t> known(delaunay.cell_capacity(), 0);
   const auto add = [&](CellId cell) {
-    if ((known[cell] & kInside) == 0) region.cells.push_back(cell);
+    if ((known[cell] & kInside) != 0) return;
     known[cell] |= kInside;
+    region.cells.push_back(cell);
+    delaunay.prefetch(cell);
   };
   for (const auto& [facet, wall] : found) {
     region.outside[wall] = delaunay.mirror(facet);
