@@ -83,10 +83,7 @@ bool Refinement::insert_for_landmark(const Point3& p, CellId hint) {
     for (VertexId vertex : tet.vertices)
       too_near |= squared_distance(p, delaunay_.point(vertex)) <= smallest * smallest;
   }
-  if (too_near) return false;
-  const auto encroached = features_ ? features_->encroached_by(p) : std::nullopt;
-  if (encroached && !split_feature(*encroached)) return false;
-  if (!encroached) insert_apex();
+  if (too_near || !insert_apex_on_surface()) return false;
   ++report_.topology_insertions;
   return true;
 }

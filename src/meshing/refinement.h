@@ -155,7 +155,8 @@ class Refinement {
   Verdict judge(FacetId facet, const SurfaceBall& ball) const;
   std::optional<VertexId> insert_surface_point(const Point3& p, CellId hint);
   std::optional<VertexId> insert_on_surface(const Point3& p, CellId hint);
-  VertexId insert_apex();
+  std::optional<VertexId> insert_apex_on_surface();
+  std::optional<VertexId> insert_apex();
   void mark_dirty(const std::array<VertexId, 3>& triangle);
   void mark_dirty(VertexId vertex);
   /// Umbrellas change only where triangles lose their balls or get new ones.

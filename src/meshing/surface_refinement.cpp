@@ -142,25 +142,31 @@ Refinement::Verdict Refinement::judge(FacetId facet, const SurfaceBall& ball) co
   return leave ? Verdict::kGood : Verdict::kSplit;
 }
 
-/// Where p encroaches on a segment, that is split instead.
 std::optional<VertexId> Refinement::insert_surface_point(const Point3& p, CellId hint) {
-  const auto encroached = features_ ? features_->encroached_by(p) : std::nullopt;
-  return encroached ? split_feature(*encroached) : insert_on_surface(p, hint);
+  delaunay_.evaluate(p, hint);
+  return insert_apex_on_surface();
 }
 
 std::optional<VertexId> Refinement::insert_on_surface(const Point3& p, CellId hint) {
-  const Star& star = delaunay_.evaluate(p, hint);
-  if (star.duplicate) {
-    ++stuck_;
-    stuck_place_ = p;
-    return std::nullopt;
-  }
+  delaunay_.evaluate(p, hint);
   return insert_apex();
 }
 
-/// Of the star that was evaluated last, which is no duplicate.
-VertexId Refinement::insert_apex() {
-  const Box3 changing = watch_.empty() ? Box3{} : box_of_change(delaunay_.star());
+/// Where it encroaches on a segment, that is split instead.
+std::optional<VertexId> Refinement::insert_apex_on_surface() {
+  const auto encroached = features_ ? features_->encroached_by(delaunay_.star().apex) : std::nullopt;
+  return encroached ? split_feature(*encroached) : insert_apex();
+}
+
+/// Of the star that was evaluated last.
+std::optional<VertexId> Refinement::insert_apex() {
+  const Star& star = delaunay_.star();
+  if (star.duplicate) {
+    ++stuck_;
+    stuck_place_ = star.apex;
+    return std::nullopt;
+  }
+  const Box3 changing = watch_.empty() ? Box3{} : box_of_change(star);
   const VertexId inserted = delaunay_.commit(VertexKind::kSurface);
   mark_lost_dirty();
   if (!watch_.empty()) note_change(changing, inserted);
