@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <numbers>
+#include <numeric>
 #include <set>
 
 #include "meshing/extract.h"
@@ -91,6 +94,33 @@ TEST_P(RandomComplex, ASweepFindsTheSameBrokenUmbrellasAsAWalkAroundEachVertex) 
   }
   EXPECT_EQ(without_disk(delaunay_, all), broken);
   EXPECT_EQ(without_disk(delaunay_, few), few_broken);
+}
+
+// More triangles than a sweep gathers the links of.
+TEST(Umbrella, OfManyTrianglesIsADiskToo) {
+  constexpr int kAround = 40;
+  const auto oracle = test::unit_ball();
+  RestrictedDelaunay delaunay(*oracle);
+  std::vector<Point3> points{{0, 0, 1}, {0, 0, -1}};
+  for (int n = 0; n < kAround; ++n) {
+    const double angle = 2 * std::numbers::pi * n / kAround;
+    for (double z : {0.8, 0.0, -0.8}) {
+      const double radius = std::sqrt(1 - z * z);
+      points.push_back({radius * std::cos(angle), radius * std::sin(angle), z});
+    }
+  }
+  const VertexId pole = delaunay.insert_seeds(points).front();
+  for (CellId c = RestrictedDelaunay::kBeyond + 1; c < delaunay.cell_capacity(); ++c) {
+    for (int i = 0; i < 4; ++i) {
+      if (delaunay.stamp(c) != 0 && delaunay.bipolar({c, i}) && delaunay.ball({c, i}) == nullptr) {
+        delaunay.compute_ball({c, i});
+      }
+    }
+  }
+  EXPECT_EQ(find_umbrella(delaunay, pole).facets.size(), static_cast<std::size_t>(kAround));
+  std::vector<VertexId> all(delaunay.vertex_capacity());
+  std::iota(all.begin(), all.end(), VertexId{0});
+  EXPECT_TRUE(without_disk(delaunay, all).empty());
 }
 
 TEST_P(RandomComplex, PiecesAreTheCellsOfOneLabelThatFacetsJoin) {
