@@ -39,7 +39,7 @@ void Refinement::enqueue(std::span<const CellId> created, std::uint32_t oldest, 
   for (CellId cell : created) {
     const std::uint32_t stamp = delaunay_.stamp(cell);
     if (tet_criteria_ != nullptr && delaunay_.label(cell) != 0 && bad(cell)) queues.tets.push_back({cell, stamp});
-    // Which facets are bipolar cannot be foreseen: they are found without branches.
+    // Few facets are bipolar, and which cannot be foreseen: all four are asked before any is looked into.
     unsigned facets = 0;
     for (int i = 0; i < 4; ++i) facets |= static_cast<unsigned>(may_be_restricted({cell, i})) << i;
     for (; facets != 0; facets &= facets - 1) {

@@ -6,10 +6,8 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <chrono>
 #include <cstring>
 #include <stdexcept>
-#include <thread>
 #include <type_traits>
 
 namespace delvox::bench {
@@ -41,10 +39,8 @@ bool read_all(int descriptor, std::byte* data, std::size_t size) {
 
 /// Touches memory and gives it back. The host of a virtual machine may have taken back what lay idle, and getting it
 /// again costs several times what clearing it does: the contender after a pause must not be the one to pay for that.
-/// What the last process has left is taken back two seconds after its end: that has to be over.
 void touch_memory() {
   constexpr std::size_t kBytes = std::size_t{1} << 30, kPage = 4096;
-  std::this_thread::sleep_for(std::chrono::milliseconds(2500));
   const pid_t child = fork();
   if (child < 0) fail("fork");
   if (child == 0) {
