@@ -124,11 +124,6 @@ class Delaunay3 {
   bool holds(CellId cell, std::uint32_t claim) const {
     return claims_[cell] == static_cast<std::uint16_t>(claim);
   }
-  /// Has a greater claim of the same round been laid on the cell?
-  bool yields(CellId cell, std::uint32_t claim) const {
-    const auto mine = static_cast<std::uint16_t>(claim);
-    return claims_[cell] > mine && claims_[cell] / kMostClaims == mine / kMostClaims;
-  }
   /// Claims what committing the star touches: its zone and the cells around it.
   void claim(const Star& star, std::uint32_t claim) const;
   bool holds(const Star& star, std::uint32_t claim) const;

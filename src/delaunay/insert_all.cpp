@@ -16,27 +16,6 @@ constexpr std::size_t kFewestPointsPerLane = 64;
 
 }  // namespace
 
-/// Where nothing but points is inserted, a cell around the zone changes in one number, that of its neighbour there: two
-/// lanes may have it in common, unless it has balls. Of two whose zones lie side by side each has a cell of the other's
-/// zone around its own, and the one with the lower claim yields.
-void RestrictedDelaunay::claim_in_bulk(const Lane& lane) const {
-  for (const Star::Tet& tet : lane.star.tets) balls_.prefetch(tet.outer.cell);
-  for (CellId cell : lane.star.zone) {
-    balls_.prefetch(cell);
-    delaunay_.claim(cell, lane.claim);
-  }
-  for (const Star::Tet& tet : lane.star.tets) {
-    if (balls_.any(tet.outer.cell)) delaunay_.claim(tet.outer.cell, lane.claim);
-  }
-}
-
-bool RestrictedDelaunay::holds_in_bulk(const Lane& lane) const {
-  return std::all_of(lane.star.zone.begin(), lane.star.zone.end(),
-                     [&](CellId cell) { return delaunay_.holds(cell, lane.claim); }) &&
-         std::none_of(lane.star.tets.begin(), lane.star.tets.end(),
-                      [&](const Star::Tet& tet) { return delaunay_.yields(tet.outer.cell, lane.claim); });
-}
-
 /// One lane for each stretch of a round of the spatial order: the stretches lie apart, so that lanes seldom meet.
 /// Returns the points' vertices, kNone for duplicates and for what was left when go_on() said to end.
 std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& points, VertexKind kind,
@@ -51,12 +30,12 @@ std::vector<VertexId> RestrictedDelaunay::insert_all(const std::vector<Point3>& 
       const Point3& p = points[order.indices[stretch.next]];
       delaunay_.evaluate(p, delaunay_.nearest_hint(p, stretch.lane.created), stretch.lane.star, own.search);
       if (stretch.lane.star.duplicate) continue;
-      claim_in_bulk(stretch.lane);
+      claim(stretch.lane);
       return;
     }
   };
   const auto commit_next = [&](Stretch& stretch) {
-    if (stretch.next == stretch.end || !holds_in_bulk(stretch.lane)) return;
+    if (stretch.next == stretch.end || !holds(stretch.lane)) return;
     vertices[order.indices[stretch.next++]] = commit_unlabelled(stretch.lane, kind);
   };
 

@@ -155,8 +155,6 @@ class RestrictedDelaunay {
   std::uint32_t new_claim() { return delaunay_.new_claim(); }
   void claim(const Lane& lane) const;
   bool holds(const Lane& lane) const { return delaunay_.holds(lane.star, lane.claim); }
-  void claim_in_bulk(const Lane& lane) const;
-  bool holds_in_bulk(const Lane& lane) const;
   void claim(FacetId facet, std::uint32_t claim) const;
   bool holds(FacetId facet, std::uint32_t claim) const;
   /// For the lane's star, if `star`, and so many new balls; with spare cells for the lane's next stars, so that these

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "delaunay_checks.h"
 #include "delvox/oracle/implicit_oracle.h"
@@ -120,61 +118,6 @@ TEST(Lanes, OnlyThoseThatDoNotTouchTheSameCellsHoldTheirClaimsTheGreatestAlways)
   EXPECT_GT(held, 100u);
   EXPECT_GT(lost, 100u);
   EXPECT_EQ(delaunay.vertex_count(), 300 + held);
-}
-
-/// Of those that hold their claims: cells that more than one of them touches, and how.
-struct Common {
-  std::size_t harmful = 0, around_both = 0;
-};
-Common common_cells(const RestrictedDelaunay& delaunay, const std::vector<Lane*>& lanes) {
-  Common common;
-  std::map<CellId, int> zones, around;
-  for (const Lane* lane : lanes) {
-    for (CellId cell : lane->star.zone) ++zones[cell];
-    std::set<CellId> outer;
-    for (const Star::Tet& tet : lane->star.tets) outer.insert(tet.outer.cell);
-    outer.erase(RestrictedDelaunay::kBeyond);
-    for (CellId cell : outer) ++around[cell];
-  }
-  for (const auto& [cell, count] : zones) common.harmful += count > 1 || around.count(cell) > 0;
-  for (const auto& [cell, count] : around) {
-    if (count > 1) ++(delaunay.has_balls(cell) ? common.harmful : common.around_both);
-  }
-  return common;
-}
-
-TEST(Lanes, InBulkHaveNoCellsInCommonButSuchAroundBothThatHaveNoBalls) {
-  const auto oracle = ball();
-  RestrictedDelaunay delaunay(*oracle);
-  delaunay.insert_seeds(points(300, false, 7));
-  Random random(8);
-  std::size_t in_common = 0, yielded = 0;
-  for (int round = 0; round < 60; ++round) {
-    test::compute_all_balls(delaunay);
-    std::vector<Lane> lanes(12);
-    std::uint32_t claim = delaunay.new_claims();
-    for (Lane& lane : lanes) {
-      lane.claim = claim++;
-      delaunay.evaluate(random.in(kBox), delaunay.some_cell(), delaunay.worker(), lane.star);
-      delaunay.claim_in_bulk(lane);
-    }
-    EXPECT_TRUE(delaunay.holds_in_bulk(lanes.back()));
-    std::vector<Lane*> holding;
-    for (Lane& lane : lanes) {
-      if (delaunay.holds_in_bulk(lane)) holding.push_back(&lane);
-    }
-    yielded += lanes.size() - holding.size();
-    const Common common = common_cells(delaunay, holding);
-    EXPECT_EQ(common.harmful, 0u);
-    in_common += common.around_both;
-    for (Lane& lane : lanes) delaunay.furnish(lane, true, 0);
-    for (Lane* lane : holding) delaunay.commit(*lane, VertexKind::kInterior);
-    for (Lane& lane : lanes) delaunay.clear_out(lane);
-    test::expect_delaunay(delaunay);
-    ASSERT_FALSE(testing::Test::HasFailure()) << round;
-  }
-  EXPECT_GT(in_common, 50u);
-  EXPECT_GT(yielded, 50u);
 }
 
 /// What a cell remembers of claims comes again after 4096 rounds.

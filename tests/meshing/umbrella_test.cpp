@@ -21,6 +21,15 @@
 namespace delvox {
 namespace {
 
+/// Of all restricted triangles.
+void compute_balls(RestrictedDelaunay& delaunay) {
+  for (CellId c = RestrictedDelaunay::kBeyond + 1; c < delaunay.cell_capacity(); ++c) {
+    for (int i = 0; i < 4 && delaunay.stamp(c) != 0; ++i) {
+      if (delaunay.bipolar({c, i}) && delaunay.ball({c, i}) == nullptr) delaunay.compute_ball({c, i});
+    }
+  }
+}
+
 class RandomComplex : public testing::TestWithParam<std::uint64_t> {
  protected:
   RandomComplex() {
@@ -78,11 +87,7 @@ TEST_P(RandomComplex, UmbrellasHoldTheRestrictedTrianglesAtAVertexAndTellWhether
 }
 
 TEST_P(RandomComplex, ASweepFindsTheSameBrokenUmbrellasAsAWalkAroundEachVertex) {
-  for (CellId c = RestrictedDelaunay::kBeyond + 1; c < delaunay_.cell_capacity(); ++c) {
-    for (int i = 0; i < 4; ++i) {
-      if (delaunay_.bipolar({c, i}) && delaunay_.ball({c, i}) == nullptr) delaunay_.compute_ball({c, i});
-    }
-  }
+  compute_balls(delaunay_);
   std::vector<VertexId> all, few, broken, few_broken;
   for (VertexId v = 4; v < delaunay_.vertex_capacity(); ++v) {
     all.push_back(v);
@@ -110,13 +115,7 @@ TEST(Umbrella, OfManyTrianglesIsADiskToo) {
     }
   }
   const VertexId pole = delaunay.insert_seeds(points).front();
-  for (CellId c = RestrictedDelaunay::kBeyond + 1; c < delaunay.cell_capacity(); ++c) {
-    for (int i = 0; i < 4; ++i) {
-      if (delaunay.stamp(c) != 0 && delaunay.bipolar({c, i}) && delaunay.ball({c, i}) == nullptr) {
-        delaunay.compute_ball({c, i});
-      }
-    }
-  }
+  compute_balls(delaunay);
   EXPECT_EQ(find_umbrella(delaunay, pole).facets.size(), static_cast<std::size_t>(kAround));
   std::vector<VertexId> all(delaunay.vertex_capacity());
   std::iota(all.begin(), all.end(), VertexId{0});
