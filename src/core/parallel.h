@@ -9,6 +9,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/team.h"
+
 namespace delvox {
 
 /// How many threads may work at a time.
@@ -17,11 +19,15 @@ inline int thread_count() {
                   static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism)));
 }
 
-/// Calls visit(begin, end) in parallel for the chunks of [0, count), each of `chunk` items but the last.
+/// Calls visit(begin, end) in parallel for the chunks of [0, count), each of `chunk` items but the last: by the thread's
+/// team if it has one at hand.
 template <class Visit>
 void for_each_chunk(std::size_t count, std::size_t chunk, const Visit& visit) {
-  tbb::parallel_for(std::size_t{0}, (count + chunk - 1) / chunk,
-                    [&](std::size_t i) { visit(i * chunk, std::min(count, (i + 1) * chunk)); });
+  const std::size_t chunks = (count + chunk - 1) / chunk;
+  const auto visit_chunk = [&](std::size_t i) { visit(i * chunk, std::min(count, (i + 1) * chunk)); };
+  Team* const team = Team::at_hand();
+  if (team != nullptr && chunks < Team::kMostPieces) return team->for_each(chunks, visit_chunk);
+  tbb::parallel_for(std::size_t{0}, chunks, visit_chunk);
 }
 
 /// What map(begin, end) returns for each chunk, in order. The chunks do not depend on the number of threads, so
