@@ -1,6 +1,7 @@
 #include "delaunay/walled_region.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "core/parallel.h"
 #include "delaunay/delaunay3.h"
@@ -25,9 +26,10 @@ class WallIndex {
     }
   }
 
-  /// May a facet of the cell be a wall?
-  bool may_be_at_wall(const std::array<VertexId, 4>& v) const {
-    return at_wall_[v[0]] + at_wall_[v[1]] + at_wall_[v[2]] + at_wall_[v[3]] >= 3;
+  /// A bit for each facet of the cell that has only vertices of walls.
+  unsigned between_walls(const std::array<VertexId, 4>& v) const {
+    const int a = at_wall_[v[0]], b = at_wall_[v[1]], c = at_wall_[v[2]], d = at_wall_[v[3]];
+    return static_cast<unsigned>((b & c & d) | (a & c & d) << 1 | (a & b & d) << 2 | (a & b & c) << 3);
   }
   /// The wall's number; kNone if it is none.
   std::uint32_t find(const Wall& facet) const {
@@ -60,20 +62,24 @@ class WallIndex {
 }  // namespace
 
 std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const std::vector<Wall>& walls) {
-  constexpr std::size_t kChunk = 1 << 14;
+  constexpr std::size_t kChunk = 1 << 12;
   struct Found {
-    FacetId inside;
+    FacetId inside, outside;
     std::uint32_t wall;
   };
   const WallIndex index(walls, delaunay.vertex_capacity());
   const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Found>& found) {
     for (auto cell = std::max(static_cast<CellId>(begin), Delaunay3::kOutside + 1); cell < end; ++cell) {
-      if (delaunay.stamp(cell) == 0 || !index.may_be_at_wall(delaunay.vertices(cell))) continue;
-      for (int i = 0; i < 4; ++i) {
-        const std::uint32_t wall = index.find(delaunay.vertices(FacetId{cell, i}));
-        if (wall != kNone) found.push_back({{cell, i}, wall});
+      if (delaunay.stamp(cell) == 0) continue;
+      for (unsigned facets = index.between_walls(delaunay.vertices(cell)); facets != 0; facets &= facets - 1) {
+        const FacetId facet{cell, std::countr_zero(facets)};
+        const std::uint32_t wall = index.find(delaunay.vertices(facet));
+        if (wall == kNone) continue;
+        delaunay.prefetch(delaunay.neighbors(cell)[facet.index]);
+        found.push_back({facet, {}, wall});
       }
     }
+    for (Found& each : found) each.outside = delaunay.mirror(each.inside);
   };
   const std::vector<Found> found = gather_chunks<Found>(delaunay.cell_capacity(), kChunk, collect);
   if (found.size() != walls.size()) return std::nullopt;
@@ -88,8 +94,8 @@ std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const 
     region.cells.push_back(cell);
     delaunay.prefetch(cell);
   };
-  for (const auto& [facet, wall] : found) {
-    region.outside[wall] = delaunay.mirror(facet);
+  for (const auto& [facet, outside, wall] : found) {
+    region.outside[wall] = outside;
     known[facet.cell] |= static_cast<std::uint8_t>(1 << facet.index);
     add(facet.cell);
   }
