@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -104,8 +105,8 @@ class Refinement {
     CellId cell;
     std::uint32_t stamp;
   };
-  /// A surface ball that a circumcentre encroaches on, and a cell near its centre.
-  struct EncroachedBall {
+  /// A surface ball, and a cell near its centre.
+  struct PlacedBall {
     SurfaceBall ball;
     CellId near = kNone;
   };
@@ -125,6 +126,7 @@ class Refinement {
   // Lanes (refinement_lanes.cpp)
   static bool enough_for_lanes(std::size_t waiting);
   void run_lanes(RefinementQueues& aside);
+  void run_round(const std::function<void(RefinementLane&)>& look);
   void place_vertices();
   void sort_by_place();
   void keep_to_budget();
@@ -132,6 +134,7 @@ class Refinement {
   void furnish(RefinementLane& lane);
   void collect(RefinementLane& lane);
   void look(RefinementLane& lane, RefinementQueues& queues, bool alone);
+  void claim(RefinementLane& lane);
   void prefetch_ahead(const RefinementQueues& queues) const;
   bool look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);
   void conclude(RefinementLane& lane, RefinementQueues& queues);
@@ -161,8 +164,18 @@ class Refinement {
   void mark_dirty(VertexId vertex);
   /// Umbrellas change only where triangles lose their balls or get new ones.
   void mark_lost_dirty();
-  bool repair_umbrella(VertexId vertex, bool may_defer);
+
+  // Umbrellas (umbrella_repair.cpp)
+  /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
+  bool repair_topology();
   bool repair_deferred_umbrellas();
+  bool repair_umbrellas(std::vector<VertexId> waiting, bool may_defer);
+  void run_umbrella_lanes(std::vector<VertexId>& waiting, std::vector<VertexId>& aside, bool may_defer);
+  void look_at_umbrellas(RefinementLane& lane, bool may_defer);
+  PlacedBall ball_to_split(VertexId vertex, RefinementLane& lane, bool may_defer) const;
+  void split_feature_for(VertexId vertex, bool may_defer);
+  void count_umbrella(double split_radius);
+  void collect_umbrellas(RefinementLane& lane);
 
   // Sharp edges (feature_refinement.cpp)
   enum class AtFeature { kClear, kLeave, kSplit };
@@ -185,9 +198,7 @@ class Refinement {
   bool repair_features();
   bool repair_feature(std::uint32_t segment);
 
-  // Repair (surface_refinement.cpp, landmark_repair.cpp)
-  /// Step 5: one insertion for each vertex whose triangles are no topological disk. True if anything was inserted.
-  bool repair_topology();
+  // Repair (landmark_repair.cpp)
   /// For meshes fine enough that the oracle has landmarks: one insertion for each landmark on the wrong side of the
   /// mesh; if there is none, for each link that does not stay on its side; if there is none, step 5 where it waited for
   /// these; if there is none, for each Voronoi edge that makes an excursion to the other side; if there is none, for each
@@ -253,10 +264,10 @@ class Refinement {
                                          RefinementLane& lane, RefinementQueues& queues, bool alone);
   bool leaves_to_features(const RefinementQueues::WaitingTet& waiting, const Point3& p, RefinementLane& lane,
                           RefinementQueues& queues, bool alone);
-  EncroachedBall encroached_ball_beside(CellId cell, const Oracle& oracle) const;
+  PlacedBall encroached_ball_beside(CellId cell, const Oracle& oracle) const;
   void find_encroached_ball(const Point3& z, std::span<const CellId> cells, const Oracle& oracle,
-                            EncroachedBall& largest) const;
-  void find_new_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const;
+                            PlacedBall& largest) const;
+  void find_new_ball(const Star& star, const Oracle& oracle, PlacedBall& largest) const;
 
   const Oracle& oracle_;
   SurfaceCriteria surface_;

@@ -62,6 +62,14 @@ class VertexList {
   std::vector<bool> listed_;
 };
 
+/// The part of `all` that lane `lane` of so many gets.
+template <class T>
+void take_share(const std::vector<T>& all, std::size_t first, std::size_t lane, std::size_t lanes, std::vector<T>& share) {
+  const std::size_t count = all.size() - first;
+  const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(first + count * i / lanes); };
+  share.insert(share.end(), at(lane), at(lane + 1));
+}
+
 /// A lane of refinement: its share of the queues, what it is about to do, and what there is to tell of it.
 struct RefinementLane {
   struct JudgedFacet {
@@ -74,13 +82,19 @@ struct RefinementLane {
     VertexId near;
   };
 
+  /// What an insertion is for: the first facet waiting, the last tet, or the next umbrella.
+  enum class Purpose { kFacet, kTet, kUmbrella };
+
   Lane lane;
   RefinementQueues queues;
+  std::vector<VertexId> umbrellas;  ///< of these vertices, from next_umbrella on, that may be no disks
+  std::size_t next_umbrella = 0;
 
   // Found by look(), to be done by conclude() if the claims hold.
   std::vector<JudgedFacet> judged;      ///< their balls are to be kept
   std::optional<VertexKind> insertion;  ///< the apex of lane.star is to be inserted as such
-  bool for_facet = false;               ///< for the first facet waiting, else for the last tet
+  Purpose purpose = Purpose::kFacet;
+  double split_radius = 0;              ///< of the ball that is split for an umbrella
   Box3 changing;                        ///< what of the surface the insertion changes
 
   // For Refinement to collect.
@@ -88,6 +102,8 @@ struct RefinementLane {
   std::vector<RefinementQueues::WaitingFacet> two_faced;
   VertexList dirty;
   std::vector<Change> changes;
+  std::vector<VertexId> umbrellas_aside, umbrellas_deferred, umbrellas_unrepaired;
+  std::vector<double> radii_for_umbrellas;  ///< of the balls that were split
   std::size_t surface_insertions = 0, interior_insertions = 0, too_deviant = 0, stuck = 0;
   Point3 deviant_place, stuck_place;
 };

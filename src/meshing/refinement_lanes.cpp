@@ -17,14 +17,6 @@ constexpr std::size_t kManyWaiting = 1 << 15;
 /// Facets that a lane may judge before the others are waited for.
 constexpr std::size_t kMostJudged = 16;
 
-/// The part of `all` that lane `lane` of so many gets.
-template <class T>
-void take_share(const std::vector<T>& all, std::size_t first, std::size_t lane, std::size_t lanes, std::vector<T>& share) {
-  const std::size_t count = all.size() - first;
-  const auto at = [&](std::size_t i) { return all.begin() + static_cast<std::ptrdiff_t>(first + count * i / lanes); };
-  share.insert(share.end(), at(lane), at(lane + 1));
-}
-
 /// Sorts the entries from number `first` on by their keys.
 template <class Waiting, class KeyOf>
 void sort_by(const KeyOf& key_of, std::vector<Waiting>& entries, std::size_t first) {
@@ -112,17 +104,9 @@ void Refinement::run_lanes(RefinementQueues& aside) {
   const bool many = queues_.waiting() > kManyWaiting;
   queues_ = {};
   if (many) give_back_freed_memory();  // what it took to sort them
-  const auto for_each_lane = [&](const auto& visit) {
-    delaunay_.team().for_each(kLanes, [&](std::size_t i) { visit(lanes_[i]); });
-  };
   std::size_t busy = kLanes;
   while (2 * busy > kLanes && !budget_.exhausted()) {
-    std::uint32_t claim = delaunay_.new_claims();
-    for (RefinementLane& lane : lanes_) lane.lane.claim = claim++;
-    for_each_lane([&](RefinementLane& lane) { look(lane, lane.queues, false); });
-    keep_to_budget();
-    for (RefinementLane& lane : lanes_) furnish(lane);
-    for_each_lane([&](RefinementLane& lane) { conclude(lane, lane.queues); });
+    run_round([&](RefinementLane& lane) { look(lane, lane.queues, false); });
     busy = static_cast<std::size_t>(
         std::count_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane.queues.waiting() > 0; }));
   }
@@ -131,6 +115,16 @@ void Refinement::run_lanes(RefinementQueues& aside) {
     aside.append(std::exchange(lane.aside, {}));
     collect(lane);
   }
+}
+
+/// Each lane finds out what it is to do next, then those that hold their claims do it.
+void Refinement::run_round(const std::function<void(RefinementLane&)>& look) {
+  std::uint32_t claim = delaunay_.new_claims();
+  for (RefinementLane& lane : lanes_) lane.lane.claim = claim++;
+  delaunay_.team().for_each(kLanes, [&](std::size_t i) { look(lanes_[i]); });
+  keep_to_budget();
+  for (RefinementLane& lane : lanes_) furnish(lane);
+  delaunay_.team().for_each(kLanes, [&](std::size_t i) { conclude(lanes_[i], lanes_[i].queues); });
 }
 
 /// Takes back insertions that the budget has no room for.
@@ -170,6 +164,7 @@ void Refinement::furnish(RefinementLane& lane) {
 void Refinement::collect(RefinementLane& lane) {
   for (VertexId vertex : lane.dirty.all()) mark_dirty(vertex);
   for (const RefinementLane::Change& change : lane.changes) note_change(change.box, change.near);
+  collect_umbrellas(lane);
   report_.surface_insertions += std::exchange(lane.surface_insertions, 0);
   report_.interior_insertions += std::exchange(lane.interior_insertions, 0);
   if (lane.too_deviant > 0) deviant_place_ = lane.deviant_place;
@@ -212,6 +207,10 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
     if (kAhead < queues.tets.size()) delaunay_.prefetch(queues.tets[queues.tets.size() - kAhead - 1].cell);
     look_at_tet(lane, queues, worker, alone);
   }
+  claim(lane);
+}
+
+void Refinement::claim(RefinementLane& lane) {
   for (const auto& judged : lane.judged) delaunay_.claim(judged.waiting.facet, lane.lane.claim);
   if (!lane.insertion) return;
   delaunay_.claim(lane.lane);
@@ -299,7 +298,7 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
     return true;
   }
   lane.insertion = VertexKind::kSurface;
-  lane.for_facet = true;
+  lane.purpose = RefinementLane::Purpose::kFacet;
   return true;
 }
 
@@ -320,7 +319,10 @@ void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
     }
   }
   if (!lane.insertion || !delaunay_.holds(lane.lane)) return;
-  if (lane.for_facet) {
+  if (lane.purpose == RefinementLane::Purpose::kUmbrella) {
+    lane.radii_for_umbrellas.push_back(lane.split_radius);
+    ++lane.next_umbrella;
+  } else if (lane.purpose == RefinementLane::Purpose::kFacet) {
     // What sharp edges have left may be part of an umbrella without its ball.
     if (features_) lane.dirty.add(delaunay_.vertices(queues.facets[queues.next_facet].facet));
     queues.pop_facet();
@@ -329,7 +331,9 @@ void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
   for (const auto& triangle : lane.lane.lost) lane.dirty.add(triangle);
   const bool on_surface = lane.insertion == VertexKind::kSurface;
   if (on_surface && !watch_.empty()) lane.changes.push_back({lane.changing, inserted});
-  ++(on_surface ? lane.surface_insertions : lane.interior_insertions);
+  if (lane.purpose != RefinementLane::Purpose::kUmbrella) {
+    ++(on_surface ? lane.surface_insertions : lane.interior_insertions);
+  }
   const std::size_t first_new = queues.facets.size();
   enqueue(lane.lane.created, oldest_stamp(lane.lane.created), queues);
   if (tet_criteria_ != nullptr) judge_new(lane, queues, first_new);

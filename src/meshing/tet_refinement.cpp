@@ -61,7 +61,7 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   star.duplicate = false;
   VertexKind kind = VertexKind::kInterior;  // 7(b)
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
-  EncroachedBall found = encroached_ball_beside(waiting.cell, *worker.oracle);
+  PlacedBall found = encroached_ball_beside(waiting.cell, *worker.oracle);
   if (found.ball.squared_radius == 0) {
     delaunay_.find_zone(z, waiting.cell, worker, star);
     find_encroached_ball(z, {star.zone.begin(), star.zone.size()}, *worker.oracle, found);
@@ -79,7 +79,7 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
     return queues.tets.pop_back();
   }
   lane.insertion = kind;
-  lane.for_facet = false;
+  lane.purpose = RefinementLane::Purpose::kTet;
 }
 
 /// The point that is to be inserted for the last tet waiting may encroach on a segment. True if it does: that is split,
@@ -99,17 +99,17 @@ bool Refinement::leaves_to_features(const RefinementQueues::WaitingTet& waiting,
 
 /// A surface ball that contains a cell's circumcentre, of its facets or of its neighbours': most that contain it are
 /// met here, with no search for the zone.
-Refinement::EncroachedBall Refinement::encroached_ball_beside(CellId cell, const Oracle& oracle) const {
+Refinement::PlacedBall Refinement::encroached_ball_beside(CellId cell, const Oracle& oracle) const {
   const auto& beside = delaunay_.neighbors(cell);
   const std::array<CellId, 5> around{cell, beside[0], beside[1], beside[2], beside[3]};
-  EncroachedBall largest;
+  PlacedBall largest;
   find_encroached_ball(delaunay_.sphere(cell).center, around, oracle, largest);
   return largest;
 }
 
 /// A surface ball that contains z belongs to a facet of a cell whose circumsphere contains z, one of these cells.
 void Refinement::find_encroached_ball(const Point3& z, std::span<const CellId> cells, const Oracle& oracle,
-                                      EncroachedBall& largest) const {
+                                      PlacedBall& largest) const {
   for (CellId cell : cells) {
     if (!delaunay_.has_balls(cell)) continue;
     const auto consider = [&](const Point3& center, double squared_radius) {
@@ -131,7 +131,7 @@ void Refinement::find_encroached_ball(const Point3& z, std::span<const CellId> c
 
 /// Of the restricted triangles that the star would have and the mesh has not. Facets on the boundary of its zone keep a
 /// part of their dual edges, which may be bipolar where the whole was not.
-void Refinement::find_new_ball(const Star& star, const Oracle& oracle, EncroachedBall& largest) const {
+void Refinement::find_new_ball(const Star& star, const Oracle& oracle, PlacedBall& largest) const {
   const auto consider = [&](const Point3& center, const Point3& corner) {
     const double squared_radius = squared_distance(center, corner);
     if (squared_radius > largest.ball.squared_radius) largest = {{center, squared_radius}, star.zone.front()};
