@@ -1,9 +1,12 @@
 #include "meshing/landmark_watch.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
+#include "core/parallel.h"
 #include "core/sort_by_key.h"
 #include "delaunay/spatial_order.h"
 
@@ -26,11 +29,13 @@ void group_by(const std::vector<std::size_t>& keys, std::size_t groups, std::vec
 Landmarks along_curve(const Landmarks& landmarks) {
   Box3 box;
   for (const Point3& p : landmarks.points) box.extend(p);
-  std::vector<KeyedIndex> entries;
-  entries.reserve(landmarks.points.size());
-  for (const Point3& p : landmarks.points) {
-    entries.push_back({place_along_curve(p, box), static_cast<std::uint32_t>(entries.size())});
-  }
+  constexpr std::size_t kChunk = 4096;
+  std::vector<KeyedIndex> entries(landmarks.points.size());
+  for_each_chunk(entries.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      entries[i] = {place_along_curve(landmarks.points[i], box), static_cast<std::uint32_t>(i)};
+    }
+  });
   sort_by_key(entries);
   Landmarks result;
   std::vector<std::uint32_t> number(entries.size());
@@ -64,7 +69,7 @@ LandmarkWatch::LandmarkWatch(Landmarks landmarks)
   group_by(ends, points_.size(), first_link_, links_of_);
   for (std::uint32_t& end : links_of_) end /= 2;
   waits_.assign(links_.size(), false);
-  is_due_.assign(points_.size(), false);
+  first_change_.assign(points_.size(), kNone);
   if (!points_.empty()) sort_into_cubes();
 }
 
@@ -101,27 +106,38 @@ std::vector<LandmarkWatch::Due> LandmarkWatch::take_due() {
     all_ = false;
     return due;
   }
-  for (const Change& change : changes_) {
-    const Box3 box{change.box.min - reach_, change.box.max + reach_};
-    const auto low = cube_of(box.min), high = cube_of(box.max);
-    std::array<int, 3> cube;
-    for (cube[2] = low[2]; cube[2] <= high[2]; ++cube[2]) {
-      for (cube[1] = low[1]; cube[1] <= high[1]; ++cube[1]) {
-        for (cube[0] = low[0]; cube[0] <= high[0]; ++cube[0]) {
-          for (std::uint32_t i = first_in_cube_[cube_index(cube)]; i < first_in_cube_[cube_index(cube) + 1]; ++i) {
-            const std::uint32_t landmark = in_cubes_[i];
-            if (is_due_[landmark] || !box.contains(points_[landmark])) continue;
-            is_due_[landmark] = true;
-            due.push_back({landmark, change.near});
-          }
-        }
-      }
-    }
-  }
+  constexpr std::size_t kChunk = 128;
+  due = gather_chunks<Due>(changes_.size(), kChunk, [&](std::size_t begin, std::size_t end, std::vector<Due>& found) {
+    for (std::size_t change = begin; change < end; ++change) add_due(static_cast<std::uint32_t>(change), found);
+  });
+  for (Due& d : due) d.near = changes_[std::exchange(first_change_[d.landmark], kNone)].near;
   changes_.clear();
-  for (const Due& d : due) is_due_[d.landmark] = false;
   std::sort(due.begin(), due.end(), [](const Due& a, const Due& b) { return a.landmark < b.landmark; });
   return due;
+}
+
+/// The landmarks near a change that no other change has met so far. Of several that meet one at the same time the first
+/// is kept, whoever comes first.
+void LandmarkWatch::add_due(std::uint32_t change, std::vector<Due>& due) {
+  const Box3 box{changes_[change].box.min - reach_, changes_[change].box.max + reach_};
+  const auto low = cube_of(box.min), high = cube_of(box.max);
+  const auto meet = [&](std::uint32_t landmark) {
+    const std::atomic_ref<std::uint32_t> first(first_change_[landmark]);
+    std::uint32_t known = first.load(std::memory_order_relaxed);
+    if (known <= change || !box.contains(points_[landmark])) return;
+    while (change < known && !first.compare_exchange_weak(known, change, std::memory_order_relaxed)) {
+    }
+    if (known == kNone) due.push_back({landmark, kNone});
+  };
+  std::array<int, 3> cube;
+  for (cube[2] = low[2]; cube[2] <= high[2]; ++cube[2]) {
+    for (cube[1] = low[1]; cube[1] <= high[1]; ++cube[1]) {
+      cube[0] = low[0];
+      const std::uint32_t* const first = &first_in_cube_[cube_index(cube)];
+      // Cubes along this axis follow each other.
+      for (std::uint32_t i = first[0]; i < first[high[0] - low[0] + 1]; ++i) meet(in_cubes_[i]);
+    }
+  }
 }
 
 void LandmarkWatch::await_links_of(const std::vector<Due>& landmarks) {

@@ -48,6 +48,7 @@ class LandmarkWatch {
   };
 
   void sort_into_cubes();
+  void add_due(std::uint32_t change, std::vector<Due>& due);
   std::size_t cube_index(const std::array<int, 3>& cube) const {
     return (static_cast<std::size_t>(cube[2]) * counts_[1] + cube[1]) * counts_[0] + cube[0];
   }
@@ -66,7 +67,8 @@ class LandmarkWatch {
   std::vector<std::uint32_t> first_in_cube_, in_cubes_;  // landmarks, cube after cube
   std::vector<std::uint32_t> first_link_, links_of_;     // links, landmark after landmark
   std::vector<std::uint32_t> waiting_links_;
-  std::vector<bool> waits_, is_due_;
+  std::vector<bool> waits_;
+  std::vector<std::uint32_t> first_change_;  // near each landmark, while due ones are gathered; else kNone
 };
 
 }  // namespace delvox

@@ -22,9 +22,12 @@ Pieces::Pieces(const RestrictedDelaunay& delaunay) : joined_(delaunay.cell_capac
       }
     }
   });
-  for (CellId cell = kFirst; cell < delaunay.cell_capacity(); ++cell) {
-    if (delaunay.stamp(cell) != 0 && joined_.root(cell) == cell) numbers_[cell] = count_++;
-  }
+  const auto collect_roots = [&](std::size_t begin, std::size_t end, std::vector<CellId>& roots) {
+    for (auto cell = std::max(static_cast<CellId>(begin), kFirst); cell < end; ++cell) {
+      if (delaunay.stamp(cell) != 0 && joined_.root(cell) == cell) roots.push_back(cell);
+    }
+  };
+  for (CellId root : gather_chunks<CellId>(delaunay.cell_capacity(), kChunk, collect_roots)) numbers_[root] = count_++;
 }
 
 }  // namespace delvox

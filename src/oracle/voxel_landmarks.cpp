@@ -1,7 +1,11 @@
 #include "oracle/voxel_landmarks.h"
 
+#include <algorithm>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "core/parallel.h"
 #include "oracle/trilinear_cell.h"
 
 namespace delvox {
@@ -18,13 +22,9 @@ class LandmarkFinder {
   LandmarkFinder(const BrickField& field, const Wanted& wanted)
       : field_(field), wanted_(wanted), level_(field.level()) {}
 
-  Landmarks run(const GoOn& go_on) {
-    bool stopped = false;
-    field_.for_each_mixed_brick([&](const Index3& brick) {
-      stopped = stopped || !go_on();
-      if (!stopped) visit_brick(brick);
-    });
-    return stopped ? Landmarks{} : std::move(result_);
+  Landmarks run(std::span<const Index3> bricks) {
+    for (const Index3& brick : bricks) visit_brick(brick);
+    return std::move(result_);
   }
 
  private:
@@ -170,9 +170,27 @@ class LandmarkFinder {
 
 }  // namespace
 
+/// In batches: go_on is asked between them, by this thread.
 Landmarks voxel_landmarks(const BrickField& field, const std::function<bool(const Point3&)>& wanted,
                           const GoOn& go_on) {
-  return LandmarkFinder(field, wanted).run(go_on);
+  constexpr std::size_t kBricksPerBatch = 512, kChunk = 8;
+  std::vector<Index3> bricks;
+  field.for_each_mixed_brick([&](const Index3& brick) { bricks.push_back(brick); });
+  Landmarks all;
+  for (std::size_t first = 0; first < bricks.size(); first += kBricksPerBatch) {
+    const std::size_t count = std::min(kBricksPerBatch, bricks.size() - first);
+    for (std::size_t n = 0; n < count; ++n) {
+      if (!go_on()) return {};
+    }
+    for (const Landmarks& found : map_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
+           return LandmarkFinder(field, wanted).run({&bricks[first + begin], end - begin});
+         })) {
+      const auto before = static_cast<std::uint32_t>(all.points.size());
+      all.points.insert(all.points.end(), found.points.begin(), found.points.end());
+      for (const auto& [a, b] : found.links) all.links.push_back({before + a, before + b});
+    }
+  }
+  return all;
 }
 
 }  // namespace delvox
