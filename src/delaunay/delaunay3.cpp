@@ -35,13 +35,14 @@ Delaunay3::~Delaunay3() = default;
 void Delaunay3::clear() {
   vertices_.clear();
   vertices_.grow_to(kCorners);  // the corners are still there
+  claims_.clear();
+  claims_.grow_to(kCorners);
   vertex_count_ = kCorners;
   free_vertices_.clear();
   free_cells_.clear();
   room_ = {};
   cells_.clear();
   stamps_.clear();
-  claims_.clear();
   make_first_cell();
 }
 
@@ -132,7 +133,6 @@ void Delaunay3::grow_zone(const Point3& p, CellId start, Star& star, StarSearch&
   const auto add = [&](CellId cell, int facet) {
     star.zone.push(cell);
     search.entered.push(static_cast<std::uint8_t>(facet));
-    claims_.prefetch(cell);
     prefetch_neighbors(cell);
   };
   star.zone.make_room(1);
@@ -160,7 +160,6 @@ void Delaunay3::grow_zone(const Point3& p, CellId start, Star& star, StarSearch&
       } else if (SmallMap::Table::number(entry) == kInZone) {
         continue;
       }
-      claims_.prefetch(outer.cell);
       Star::Tet& tet = star.tets.push_raw();
       tet.outer = outer;
       tet.vertices = vertices(inner);
@@ -205,6 +204,7 @@ void Delaunay3::join(FacetId facet, FacetId outer) {
 VertexId Delaunay3::new_vertex() {
   if (free_vertices_.empty()) {
     vertices_.grow_to(vertices_.size() + 1);
+    claims_.grow_to(vertices_.size());
     return static_cast<VertexId>(vertices_.size() - 1);
   }
   const VertexId vertex = free_vertices_.back();
@@ -215,7 +215,6 @@ VertexId Delaunay3::new_vertex() {
 void Delaunay3::grow_cells(std::size_t count) {
   cells_.grow_to(count);
   stamps_.grow_to(count);
-  claims_.grow_to(count);
 }
 
 CellId Delaunay3::new_cell() {
@@ -237,9 +236,9 @@ void Delaunay3::set_cell(CellId cell, const std::array<VertexId, 4>& vertices, c
   for (VertexId v : vertices) vertices_[v].cell = cell;
 }
 
-void Delaunay3::claim(CellId cell, std::uint32_t number) const {
+void Delaunay3::claim(VertexId vertex, std::uint32_t number) const {
   const auto mine = static_cast<std::uint16_t>(number);
-  std::uint16_t& held = claims_[cell];
+  std::uint16_t& held = claims_[vertex];
   const auto gives_way = [mine](std::uint16_t to) { return to / kMostClaims != mine / kMostClaims || to < mine; };
   if (!several_threads_) {
     if (gives_way(held)) held = mine;
@@ -252,17 +251,15 @@ void Delaunay3::claim(CellId cell, std::uint32_t number) const {
 }
 
 void Delaunay3::claim(const Star& star, std::uint32_t number) const {
-  for (CellId cell : star.zone) claim(cell, number);
-  for (const Star::Tet& tet : star.tets) {
-    if (tet.outer.cell != kOutside) claim(tet.outer.cell, number);
+  for (const Star::Corner& corner : star.corners) {
+    if (corner.vertex >= kCorners) claim(corner.vertex, number);
   }
 }
 
 bool Delaunay3::holds(const Star& star, std::uint32_t number) const {
-  return std::all_of(star.zone.begin(), star.zone.end(), [&](CellId cell) { return holds(cell, number); }) &&
-         std::all_of(star.tets.begin(), star.tets.end(), [&](const Star::Tet& tet) {
-           return tet.outer.cell == kOutside || holds(tet.outer.cell, number);
-         });
+  return std::all_of(star.corners.begin(), star.corners.end(), [&](const Star::Corner& corner) {
+    return corner.vertex < kCorners || holds(corner.vertex, number);
+  });
 }
 
 void Delaunay3::furnish(Room& room, const Star& star, std::size_t spare_cells) {
@@ -279,17 +276,22 @@ void Delaunay3::clear_out(Room& room) {
 }
 
 VertexId Delaunay3::commit(const Star& star, std::vector<CellId>& created) {
-  const std::uint32_t number = new_claim();
-  for (CellId cell : star.zone) claim(cell, number);
   furnish(room_, star);
-  return commit(star, number, room_, created);
+  return commit(star, new_claim(), room_, created);
 }
 
-/// Gives the vertex another cell if the one it has is going. Vertices of the star may be those of other stars, too, that
-/// are committed at the same time, but only one of these can have claimed the vertex's cell.
-inline void Delaunay3::repoint(VertexId vertex, CellId cell, std::uint32_t number) {
-  std::atomic_ref<CellId> known(vertices_[vertex].cell);
-  if (holds(known.load(std::memory_order_relaxed), number)) known.store(cell, std::memory_order_relaxed);
+/// Gives the star's vertices new cells. Corners may be those of other stars, too, that are committed at the same time,
+/// but the cell that each has is in the zone of one of these only.
+void Delaunay3::repoint(const Star& star, const std::vector<CellId>& created) {
+  for (const Star::Corner& corner : star.corners) {
+    CellId& cell = vertices_[corner.vertex].cell;
+    if (corner.vertex >= kCorners) {
+      cell = created[corner.tet];
+      continue;
+    }
+    const std::atomic_ref<CellId> known(cell);
+    if (star.in_zone(known.load(std::memory_order_relaxed))) known.store(created[corner.tet], std::memory_order_relaxed);
+  }
 }
 
 VertexId Delaunay3::commit(const Star& star, std::uint32_t number, Room& room, std::vector<CellId>& created) {
@@ -313,7 +315,7 @@ VertexId Delaunay3::commit(const Star& star, std::uint32_t number, Room& room, s
     for (int i = 0; i < 3; ++i) cells_[cell].neighbors[i + 1] = created[tet.beside[i]];
     join({cell, 0}, tet.outer);
   }
-  for (const Star::Corner& corner : star.corners) repoint(corner.vertex, created[corner.tet], number);
+  repoint(star, created);
   vertices_[apex] = {star.apex, created.front()};
   vertex_count_.fetch_add(1, std::memory_order_relaxed);
   return apex;

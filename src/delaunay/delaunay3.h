@@ -22,7 +22,7 @@ namespace delvox {
 /// in a hundred in-sphere tests, exact predicates the rest. Numbers of dead cells and vertices are used again; a cell's
 /// stamp tells whether it is still the cell that was meant.
 ///
-/// Several insertions can be made at a time: each evaluates its star and claims the cells that this touches, as none
+/// Several insertions can be made at a time: each evaluates its star and claims the vertices of that, as none
 /// changes anything yet; then those that hold all they have claimed are committed. What comes out does not depend on the
 /// number of threads (deterministic reservations: Blelloch, Fineman, Gibbons, Shun, PPoPP 2012).
 ///
@@ -114,17 +114,18 @@ class Delaunay3 {
     next_stamp_ = first + kMostClaims;
     return first;
   }
-  /// For an insertion that is made alone: no claim of old can keep it from a cell.
+  /// For an insertion that is made alone: no claim of old can keep it from a vertex.
   std::uint32_t new_claim() { return new_claims() + kMostClaims - 1; }
-  /// Claims a cell: the greatest claim of the round holds it. (What cells remember of claims comes again after 4096
-  /// rounds. A cell that then happens to be held by a claim of old is held by nobody in this round, and is free in the
+  /// Claims a vertex: the greatest claim of the round holds it. (What vertices remember of claims comes again after 4096
+  /// rounds. A vertex that then happens to be held by a claim of old is held by nobody in this round, and is free in the
   /// next.)
-  void claim(CellId cell, std::uint32_t claim) const;
-  /// pre: the claim has been laid on the cell, in this round.
-  bool holds(CellId cell, std::uint32_t claim) const {
-    return claims_[cell] == static_cast<std::uint16_t>(claim);
+  void claim(VertexId vertex, std::uint32_t claim) const;
+  /// pre: the claim has been laid on the vertex, in this round.
+  bool holds(VertexId vertex, std::uint32_t claim) const {
+    return claims_[vertex] == static_cast<std::uint16_t>(claim);
   }
-  /// Claims what committing the star touches: its zone and the cells around it.
+  /// Claims the star's vertices but corners: what committing it changes, its zone and facets of the cells around that,
+  /// cannot be had by who holds none of them. There are far fewer of them than cells.
   void claim(const Star& star, std::uint32_t claim) const;
   bool holds(const Star& star, std::uint32_t claim) const;
   /// Puts into the room what committing the star takes, and if that is not there yet, so many cells more. Not to be
@@ -173,15 +174,15 @@ class Delaunay3 {
   CellId new_cell();
   void grow_cells(std::size_t count);
   void set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere);
-  void repoint(VertexId vertex, CellId cell, std::uint32_t claim);
+  void repoint(const Star& star, const std::vector<CellId>& created);
   void join(FacetId facet, FacetId outer);
 
   Box3 bounds_;
   bool several_threads_;
   PageArray<Cell> cells_;
   PageArray<std::uint32_t> stamps_;
-  mutable PageArray<std::uint16_t> claims_;  // low bits of the greatest of the last round that laid one on the cell
   PageArray<Vertex> vertices_;
+  mutable PageArray<std::uint16_t> claims_;  // low bits of the greatest of the last round that laid one on the vertex
   std::vector<CellId> free_cells_;
   std::vector<VertexId> free_vertices_;
   double trusted_squared_radius_ = 0, orientation_error_ = 0;

@@ -18,6 +18,7 @@ void Delaunay3::make_room_for(const KnownTets& known) {
   grow_cells(cell_capacity() + known.count);
   const std::size_t first = vertex_capacity();
   vertices_.grow_to(first + known.points.size());
+  claims_.grow_to(vertices_.size());
   for_each_chunk(known.points.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) vertices_[first + i] = {known.points[i], kNone};
   });

@@ -159,12 +159,12 @@ void RestrictedDelaunay::claim(const Lane& lane) const {
 }
 
 void RestrictedDelaunay::claim(FacetId facet, std::uint32_t claim) const {
-  delaunay_.claim(facet.cell, claim);
-  delaunay_.claim(neighbors(facet.cell)[facet.index], claim);
+  for (VertexId vertex : vertices(facet)) delaunay_.claim(vertex, claim);
 }
 
 bool RestrictedDelaunay::holds(FacetId facet, std::uint32_t claim) const {
-  return delaunay_.holds(facet.cell, claim) && delaunay_.holds(neighbors(facet.cell)[facet.index], claim);
+  const auto v = vertices(facet);
+  return delaunay_.holds(v[0], claim) && delaunay_.holds(v[1], claim) && delaunay_.holds(v[2], claim);
 }
 
 void RestrictedDelaunay::furnish(Lane& lane, bool star, std::size_t balls) {
@@ -181,7 +181,6 @@ void RestrictedDelaunay::clear_out(Lane& lane) {
 
 VertexId RestrictedDelaunay::commit(VertexKind kind) {
   lane_.claim = new_claim();
-  claim(lane_);
   furnish(lane_, true, 0);
   const VertexId vertex = commit(lane_, kind);
   created_ = lane_.created;
