@@ -25,6 +25,7 @@ template <class Visit>
 void for_each_chunk(std::size_t count, std::size_t chunk, const Visit& visit) {
   const std::size_t chunks = (count + chunk - 1) / chunk;
   const auto visit_chunk = [&](std::size_t i) { visit(i * chunk, std::min(count, (i + 1) * chunk)); };
+  if (chunks == 1) return visit(std::size_t{0}, count);  // no round for that
   Team* const team = Team::at_hand();
   if (team != nullptr && chunks < Team::kMostPieces) return team->for_each(chunks, visit_chunk);
   tbb::parallel_for(std::size_t{0}, chunks, visit_chunk);
@@ -54,6 +55,12 @@ std::vector<T> gather_chunks(std::size_t count, std::size_t chunk, const Collect
     std::copy(parts[i].begin(), parts[i].end(), all.begin() + static_cast<std::ptrdiff_t>(first[i]));
   });
   return all;
+}
+
+/// Is the calling thread the only one that works its loops?
+inline bool works_alone() {
+  const Team* const team = Team::at_hand();
+  return team != nullptr ? team->alone() : thread_count() == 1;
 }
 
 /// One T for each thread that asks for one, made when it first does.

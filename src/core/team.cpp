@@ -37,8 +37,8 @@ Team* Team::at_hand() {
 }
 
 Team::Team(int threads) : shares_(static_cast<std::size_t>(std::max(threads, 1))) {
-  if (own_team == nullptr) own_team = this;
   for (std::size_t i = 1; i < shares_.size(); ++i) members_.emplace_back([this, i] { serve(i); });
+  if (own_team == nullptr) own_team = this;
 }
 
 Team::~Team() {
@@ -69,7 +69,8 @@ void Team::for_each(std::size_t count, const std::function<void(std::size_t)>& w
     take_part(0);
   }
   // Others are about to end their last pieces: to ask the system for anything would take longer.
-  for (int spin = 0; done_.load() < count; ++spin) spin < kSpins ? pause() : std::this_thread::yield();
+  for (int spin = 0; spin < kSpins && done_.load() < count; ++spin) pause();
+  while (done_.load() < count) std::this_thread::yield();
   if (failed_.exchange(false)) std::rethrow_exception(std::exchange(failure_, nullptr));
 }
 

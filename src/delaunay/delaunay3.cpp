@@ -9,6 +9,11 @@
 #include "delvox/core/mesh.h"
 
 namespace delvox {
+namespace {
+
+constexpr VertexId kFirstCorner = 0;
+
+}  // namespace
 
 Delaunay3::Delaunay3(const Box3& bounds) : bounds_(bounds), several_threads_(thread_count() > 1) {
   const Point3 c = bounds.center();
@@ -251,15 +256,23 @@ void Delaunay3::claim(VertexId vertex, std::uint32_t number) const {
 }
 
 void Delaunay3::claim(const Star& star, std::uint32_t number) const {
+  bool any = false;
   for (const Star::Corner& corner : star.corners) {
-    if (corner.vertex >= kCorners) claim(corner.vertex, number);
+    if (corner.vertex < kCorners) continue;
+    claim(corner.vertex, number);
+    any = true;
   }
+  if (!any) claim(kFirstCorner, number);  // the first star of all
 }
 
 bool Delaunay3::holds(const Star& star, std::uint32_t number) const {
-  return std::all_of(star.corners.begin(), star.corners.end(), [&](const Star::Corner& corner) {
-    return corner.vertex < kCorners || holds(corner.vertex, number);
-  });
+  bool any = false;
+  for (const Star::Corner& corner : star.corners) {
+    if (corner.vertex < kCorners) continue;
+    if (!holds(corner.vertex, number)) return false;
+    any = true;
+  }
+  return any || holds(kFirstCorner, number);
 }
 
 void Delaunay3::furnish(Room& room, const Star& star, std::size_t spare_cells) {
@@ -280,8 +293,8 @@ VertexId Delaunay3::commit(const Star& star, std::vector<CellId>& created) {
   return commit(star, new_claim(), room_, created);
 }
 
-/// Gives the star's vertices new cells. Corners may be those of other stars, too, that are committed at the same time,
-/// but the cell that each has is in the zone of one of these only.
+/// Gives the star's vertices new cells. The far corners may be those of other stars, too, that are committed at the same
+/// time, but the cell that each has is in the zone of one of these only.
 void Delaunay3::repoint(const Star& star, const std::vector<CellId>& created) {
   for (const Star::Corner& corner : star.corners) {
     CellId& cell = vertices_[corner.vertex].cell;

@@ -124,8 +124,9 @@ class Delaunay3 {
   bool holds(VertexId vertex, std::uint32_t claim) const {
     return claims_[vertex] == static_cast<std::uint16_t>(claim);
   }
-  /// Claims the star's vertices but corners: what committing it changes, its zone and facets of the cells around that,
-  /// cannot be had by who holds none of them. There are far fewer of them than cells.
+  /// Claims the star's vertices, which are far fewer than cells: stars of which one's zone holds a cell of the other's
+  /// zone, or of those around it, have one in common that is none of the four far corners. These nearly all outer stars
+  /// share; they are left out, unless there is nothing else yet.
   void claim(const Star& star, std::uint32_t claim) const;
   bool holds(const Star& star, std::uint32_t claim) const;
   /// Puts into the room what committing the star takes, and if that is not there yet, so many cells more. Not to be
@@ -133,7 +134,8 @@ class Delaunay3 {
   void furnish(Room& room, const Star& star, std::size_t spare_cells = 0);
   /// Gives back what is left in the room.
   void clear_out(Room& room);
-  /// As above, beside others. The cells' stamp is the claim. pre: holds(star, claim), room furnished for the star.
+  /// As above, beside others. The cells' stamp is the claim. pre: holds(star, claim), or nothing is done beside; room
+  /// furnished for the star.
   VertexId commit(const Star& star, std::uint32_t claim, Room& room, std::vector<CellId>& created);
 
   // Tets that are known, in place of what their walls enclose: what inserting their points would end in.

@@ -12,7 +12,7 @@
 namespace delvox {
 
 /// One of several insertions that are made at a time: evaluated beside each other, then those committed beside each
-/// other that do not have a vertex in common. Which those are depends on the lanes' claims alone.
+/// other that have no vertex in common but far corners. Which those are depends on the lanes' claims alone.
 struct Lane {
   Star star;
   std::uint32_t claim = 0;      ///< greater than all before

@@ -158,13 +158,12 @@ void RestrictedDelaunay::claim(const Lane& lane) const {
   delaunay_.claim(lane.star, lane.claim);
 }
 
-void RestrictedDelaunay::claim(FacetId facet, std::uint32_t claim) const {
-  for (VertexId vertex : vertices(facet)) delaunay_.claim(vertex, claim);
+void RestrictedDelaunay::claim(const std::array<VertexId, 3>& triangle, std::uint32_t claim) const {
+  for (VertexId vertex : triangle) delaunay_.claim(vertex, claim);
 }
 
-bool RestrictedDelaunay::holds(FacetId facet, std::uint32_t claim) const {
-  const auto v = vertices(facet);
-  return delaunay_.holds(v[0], claim) && delaunay_.holds(v[1], claim) && delaunay_.holds(v[2], claim);
+bool RestrictedDelaunay::holds(const std::array<VertexId, 3>& triangle, std::uint32_t claim) const {
+  return std::all_of(triangle.begin(), triangle.end(), [&](VertexId v) { return delaunay_.holds(v, claim); });
 }
 
 void RestrictedDelaunay::furnish(Lane& lane, bool star, std::size_t balls) {

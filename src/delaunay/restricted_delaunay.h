@@ -140,7 +140,7 @@ class RestrictedDelaunay {
   // Insertions in lanes. First, beside each other: evaluate and claim; then, by one thread: furnish; then, beside each
   // other: what holds its claims may be committed. Nothing else may change the triangulation meanwhile.
 
-  /// The threads that work in lanes.
+  /// The threads that work in lanes, and in all loops meanwhile.
   Team& team() { return team_; }
   /// The calling thread's own.
   Worker& worker() const { return workers_.local(); }
@@ -155,8 +155,9 @@ class RestrictedDelaunay {
   std::uint32_t new_claim() { return delaunay_.new_claim(); }
   void claim(const Lane& lane) const;
   bool holds(const Lane& lane) const { return delaunay_.holds(lane.star, lane.claim); }
-  void claim(FacetId facet, std::uint32_t claim) const;
-  bool holds(FacetId facet, std::uint32_t claim) const;
+  /// Of a facet, which may be gone by the time that this is asked: its vertices. pre: none is a far corner.
+  void claim(const std::array<VertexId, 3>& triangle, std::uint32_t claim) const;
+  bool holds(const std::array<VertexId, 3>& triangle, std::uint32_t claim) const;
   /// For the lane's star, if `star`, and so many new balls; with spare cells for the lane's next stars, so that these
   /// lie together in memory.
   void furnish(Lane& lane, bool star, std::size_t balls);
@@ -164,7 +165,7 @@ class RestrictedDelaunay {
   void clear_out(Lane& lane);
   /// pre: holds(lane), furnished.
   VertexId commit(Lane& lane, VertexKind kind);
-  /// Keeps a ball. pre: holds(facet, lane.claim), furnished.
+  /// Keeps a ball. pre: its vertices are held, furnished.
   void keep_ball(FacetId facet, const SurfaceBall& ball, Lane& lane);
 
  private:

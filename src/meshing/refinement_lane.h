@@ -76,6 +76,7 @@ struct RefinementLane {
     RefinementQueues::WaitingFacet waiting;
     SurfaceBall ball;
     bool too_deviant;
+    std::array<VertexId, 3> vertices;  ///< its facet may be gone by the time that its ball is to be kept
   };
   struct Change {
     Box3 box;

@@ -211,7 +211,7 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
 }
 
 void Refinement::claim(RefinementLane& lane) {
-  for (const auto& judged : lane.judged) delaunay_.claim(judged.waiting.facet, lane.lane.claim);
+  for (const auto& judged : lane.judged) delaunay_.claim(judged.vertices, lane.lane.claim);
   if (!lane.insertion) return;
   delaunay_.claim(lane.lane);
   if (!watch_.empty() && lane.insertion == VertexKind::kSurface) lane.changing = box_of_change(lane.lane.star);
@@ -231,7 +231,7 @@ std::optional<bool> Refinement::leaves_to_features(const RefinementQueues::Waiti
   const auto leave = [&] {
     const bool alive = delaunay_.alive(waiting.facet.cell, waiting.stamp);
     const bool in_want = alive && delaunay_.bipolar(waiting.facet) && delaunay_.ball(waiting.facet) == nullptr;
-    if (in_want) lane.judged.push_back({waiting, ball, false});
+    if (in_want) lane.judged.push_back({waiting, ball, false, delaunay_.vertices(waiting.facet)});
     queues.pop_facet();
   };
   if (at == AtFeature::kLeave) {
@@ -283,7 +283,7 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
     return true;
   }
   if (verdict != Verdict::kSplit) {
-    if (known == nullptr) lane.judged.push_back({waiting, *ball, verdict == Verdict::kTooDeviant});
+    if (known == nullptr) lane.judged.push_back({waiting, *ball, verdict == Verdict::kTooDeviant, delaunay_.vertices(facet)});
     queues.pop_facet();
     return true;
   }
@@ -293,7 +293,7 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
   if (star.duplicate) {
     ++lane.stuck;
     lane.stuck_place = ball->center;
-    if (known == nullptr && delaunay_.bipolar(facet)) lane.judged.push_back({waiting, *ball, false});
+    if (known == nullptr && delaunay_.bipolar(facet)) lane.judged.push_back({waiting, *ball, false, delaunay_.vertices(facet)});
     queues.pop_facet();
     return true;
   }
@@ -311,8 +311,8 @@ void Refinement::keep(RefinementLane& lane, FacetId facet, const SurfaceBall& ba
 
 /// Does what look() has found, as far as the lane holds its claims: what it does not waits on.
 void Refinement::conclude(RefinementLane& lane, RefinementQueues& queues) {
-  for (const auto& [waiting, ball, too_deviant] : lane.judged) {
-    if (!delaunay_.holds(waiting.facet, lane.lane.claim)) {
+  for (const auto& [waiting, ball, too_deviant, vertices] : lane.judged) {
+    if (!delaunay_.holds(vertices, lane.lane.claim)) {
       queues.facets.push_back(waiting);
     } else if (delaunay_.ball(waiting.facet) == nullptr) {  // else judged from its other side, too
       keep(lane, waiting.facet, ball, too_deviant);

@@ -69,7 +69,7 @@ class TrianglesAt {
     };
     triangles_ = gather_chunks<Corners>(delaunay.cell_capacity(), kChunk, collect);
     next_.grow_to(3 * triangles_.size());
-    const bool alone = thread_count() == 1;  // the processor has to be asked for nothing special then
+    const bool alone = works_alone();  // the processor has to be asked for nothing special then
     for_each_chunk(triangles_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t t = begin; t < end; ++t) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -144,7 +144,7 @@ TEST_P(DenseRefinementOfPhantoms, KeepsWhatDelSurfKeepsForAnyNumberOfThreads) {
 }
 
 TEST(DenseRefinement, MakesDelSAgainWhereAFewPlacesAreTooRough) {
-  const PhantomCase c{"gyroid", test::cubic_image(24), 0.5};
+  const PhantomCase c{"gyroid", test::cubic_image(28), 0.5};
   const auto oracle = make_isosurface_oracle(c.volume(), c.isosurface());
   RunReport report;
   const SurfaceMesh mesh = delsurf(*oracle, dense_options(c.size, c.min_ball_radius()), report);

@@ -106,7 +106,7 @@ TEST(RemoveSlivers, LeavesNoAngleBelowTwentyDegreesOnSmoothShapesHoweverTheyAreG
 // may break, and what is left is told.
 TEST(RemoveSlivers, TellsWhatIsLeftOnNoiseAndBreaksNothing) {
   PhantomCase noise{"random", phantom_defaults("random"), 0.8, 1.3};
-  noise.image.dims = {24, 24, 24};  // large enough that some are left, however it goes
+  noise.image.dims = {28, 28, 28};  // large enough that some are left, however it goes
   noise.image.seed = 2;
   const Volume volume = noise.volume();
   const auto oracle = make_isosurface_oracle(volume, noise.isosurface());
