@@ -25,6 +25,7 @@ template <class Visit>
 void for_each_chunk(std::size_t count, std::size_t chunk, const Visit& visit) {
   const std::size_t chunks = (count + chunk - 1) / chunk;
   const auto visit_chunk = [&](std::size_t i) { visit(i * chunk, std::min(count, (i + 1) * chunk)); };
+  if (chunks == 0) return;
   if (chunks == 1) return visit(std::size_t{0}, count);  // no round for that
   Team* const team = Team::at_hand();
   if (team != nullptr && chunks < Team::kMostPieces) return team->for_each(chunks, visit_chunk);

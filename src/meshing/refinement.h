@@ -126,6 +126,8 @@ class Refinement {
   // Lanes (refinement_lanes.cpp)
   static bool enough_for_lanes(std::size_t waiting);
   void run_lanes(RefinementQueues& aside);
+  void run_rounds(const std::function<void(RefinementLane&)>& look,
+                  const std::function<bool(const RefinementLane&)>& has_work);
   void run_round(const std::function<void(RefinementLane&)>& look);
   void place_vertices();
   void sort_by_place();
@@ -134,6 +136,8 @@ class Refinement {
   void furnish(RefinementLane& lane);
   void collect(RefinementLane& lane);
   void look(RefinementLane& lane, RefinementQueues& queues, bool alone);
+  void add_judged(RefinementLane& lane, const RefinementQueues::WaitingFacet& waiting, const SurfaceBall& ball,
+                  bool too_deviant) const;
   void claim(RefinementLane& lane);
   void prefetch_ahead(const RefinementQueues& queues) const;
   bool look_at_facet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone);

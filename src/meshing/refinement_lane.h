@@ -70,6 +70,13 @@ void take_share(const std::vector<T>& all, std::size_t first, std::size_t lane, 
   share.insert(share.end(), at(lane), at(lane + 1));
 }
 
+/// All that `from` holds.
+template <class T>
+void take_over(std::vector<T>& from, std::vector<T>& to) {
+  to.insert(to.end(), from.begin(), from.end());
+  from.clear();
+}
+
 /// A lane of refinement: its share of the queues, what it is about to do, and what there is to tell of it.
 struct RefinementLane {
   struct JudgedFacet {

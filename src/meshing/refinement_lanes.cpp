@@ -94,7 +94,7 @@ void Refinement::place_vertices() {
   });
 }
 
-/// Gives each lane its share of what waits, and lets them work until half of them have nothing left.
+/// Gives each lane its share of what waits, and lets them work.
 void Refinement::run_lanes(RefinementQueues& aside) {
   sort_by_place();
   for (std::size_t i = 0; i < kLanes; ++i) {
@@ -104,17 +104,21 @@ void Refinement::run_lanes(RefinementQueues& aside) {
   const bool many = queues_.waiting() > kManyWaiting;
   queues_ = {};
   if (many) give_back_freed_memory();  // what it took to sort them
-  std::size_t busy = kLanes;
-  while (2 * busy > kLanes && !budget_.exhausted()) {
-    run_round([&](RefinementLane& lane) { look(lane, lane.queues, false); });
-    busy = static_cast<std::size_t>(
-        std::count_if(lanes_.begin(), lanes_.end(), [](const auto& lane) { return lane.queues.waiting() > 0; }));
-  }
+  run_rounds([&](RefinementLane& lane) { look(lane, lane.queues, false); },
+             [](const RefinementLane& lane) { return lane.queues.waiting() > 0; });
   for (RefinementLane& lane : lanes_) {
     queues_.append(std::exchange(lane.queues, {}));
     aside.append(std::exchange(lane.aside, {}));
     collect(lane);
   }
+}
+
+/// At least one, then on until half of the lanes have no work left.
+void Refinement::run_rounds(const std::function<void(RefinementLane&)>& look,
+                            const std::function<bool(const RefinementLane&)>& has_work) {
+  do {
+    run_round(look);
+  } while (2 * std::count_if(lanes_.begin(), lanes_.end(), has_work) > std::ptrdiff_t{kLanes} && !budget_.exhausted());
 }
 
 /// Each lane finds out what it is to do next, then those that hold their claims do it.
@@ -171,8 +175,7 @@ void Refinement::collect(RefinementLane& lane) {
   too_deviant_ += std::exchange(lane.too_deviant, 0);
   if (lane.stuck > 0) stuck_place_ = lane.stuck_place;
   stuck_ += std::exchange(lane.stuck, 0);
-  two_faced_.insert(two_faced_.end(), lane.two_faced.begin(), lane.two_faced.end());
-  lane.two_faced.clear();
+  take_over(lane.two_faced, two_faced_);
   lane.dirty.clear();
   lane.changes = {};
   delaunay_.clear_out(lane.lane);
@@ -210,6 +213,11 @@ void Refinement::look(RefinementLane& lane, RefinementQueues& queues, bool alone
   claim(lane);
 }
 
+void Refinement::add_judged(RefinementLane& lane, const RefinementQueues::WaitingFacet& waiting,
+                            const SurfaceBall& ball, bool too_deviant) const {
+  lane.judged.push_back({waiting, ball, too_deviant, delaunay_.vertices(waiting.facet)});
+}
+
 void Refinement::claim(RefinementLane& lane) {
   for (const auto& judged : lane.judged) delaunay_.claim(judged.vertices, lane.lane.claim);
   if (!lane.insertion) return;
@@ -231,7 +239,7 @@ std::optional<bool> Refinement::leaves_to_features(const RefinementQueues::Waiti
   const auto leave = [&] {
     const bool alive = delaunay_.alive(waiting.facet.cell, waiting.stamp);
     const bool in_want = alive && delaunay_.bipolar(waiting.facet) && delaunay_.ball(waiting.facet) == nullptr;
-    if (in_want) lane.judged.push_back({waiting, ball, false, delaunay_.vertices(waiting.facet)});
+    if (in_want) add_judged(lane, waiting, ball, false);
     queues.pop_facet();
   };
   if (at == AtFeature::kLeave) {
@@ -283,7 +291,7 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
     return true;
   }
   if (verdict != Verdict::kSplit) {
-    if (known == nullptr) lane.judged.push_back({waiting, *ball, verdict == Verdict::kTooDeviant, delaunay_.vertices(facet)});
+    if (known == nullptr) add_judged(lane, waiting, *ball, verdict == Verdict::kTooDeviant);
     queues.pop_facet();
     return true;
   }
@@ -293,7 +301,7 @@ bool Refinement::look_at_facet(RefinementLane& lane, RefinementQueues& queues, W
   if (star.duplicate) {
     ++lane.stuck;
     lane.stuck_place = ball->center;
-    if (known == nullptr && delaunay_.bipolar(facet)) lane.judged.push_back({waiting, *ball, false, delaunay_.vertices(facet)});
+    if (known == nullptr && delaunay_.bipolar(facet)) add_judged(lane, waiting, *ball, false);
     queues.pop_facet();
     return true;
   }

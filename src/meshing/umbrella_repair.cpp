@@ -18,7 +18,9 @@ bool Refinement::repair_topology() {
 }
 
 /// Step 5 for those that waited for landmarks and links.
-bool Refinement::repair_deferred_umbrellas() { return repair_umbrellas(std::exchange(deferred_, {}), false); }
+bool Refinement::repair_deferred_umbrellas() {
+  return repair_umbrellas(std::exchange(deferred_, {}), false);
+}
 
 /// TopoDisk(p) for each vertex p: in lanes, then what must be done alone. True if anything was inserted.
 bool Refinement::repair_umbrellas(std::vector<VertexId> waiting, bool may_defer) {
@@ -32,22 +34,17 @@ bool Refinement::repair_umbrellas(std::vector<VertexId> waiting, bool may_defer)
   return report_.topology_insertions > before;
 }
 
-/// Gives each lane its share, and lets them work until half of them have nothing left.
+/// Gives each lane its share, and lets them work.
 void Refinement::run_umbrella_lanes(std::vector<VertexId>& waiting, std::vector<VertexId>& aside, bool may_defer) {
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    take_share(waiting, 0, i, kLanes, lanes_[i].umbrellas);
-  }
+  for (std::size_t i = 0; i < kLanes; ++i) take_share(waiting, 0, i, kLanes, lanes_[i].umbrellas);
   waiting.clear();
-  const auto busy = [](const RefinementLane& lane) { return lane.next_umbrella < lane.umbrellas.size(); };
-  do {
-    run_round([&](RefinementLane& lane) { look_at_umbrellas(lane, may_defer); });
-  } while (2 * std::count_if(lanes_.begin(), lanes_.end(), busy) > std::ptrdiff_t{kLanes} && !budget_.exhausted());
+  run_rounds([&](RefinementLane& lane) { look_at_umbrellas(lane, may_defer); },
+             [](const RefinementLane& lane) { return lane.next_umbrella < lane.umbrellas.size(); });
   for (RefinementLane& lane : lanes_) {
     take_share(lane.umbrellas, lane.next_umbrella, 0, 1, waiting);
     lane.umbrellas.clear();
     lane.next_umbrella = 0;
-    take_share(lane.umbrellas_aside, 0, 0, 1, aside);
-    lane.umbrellas_aside.clear();
+    take_over(lane.umbrellas_aside, aside);
     queues_.append(std::exchange(lane.queues, {}));
     collect(lane);
   }
@@ -134,10 +131,6 @@ void Refinement::count_umbrella(double split_radius) {
 void Refinement::collect_umbrellas(RefinementLane& lane) {
   for (double radius : lane.radii_for_umbrellas) count_umbrella(radius);
   lane.radii_for_umbrellas.clear();
-  const auto take_over = [](std::vector<VertexId>& from, std::vector<VertexId>& to) {
-    to.insert(to.end(), from.begin(), from.end());
-    from.clear();
-  };
   take_over(lane.umbrellas_deferred, deferred_);
   take_over(lane.umbrellas_unrepaired, unrepaired_);
 }

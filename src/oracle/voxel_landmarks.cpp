@@ -170,7 +170,6 @@ class LandmarkFinder {
 
 }  // namespace
 
-/// In batches: go_on is asked between them, by this thread.
 Landmarks voxel_landmarks(const BrickField& field, const std::function<bool(const Point3&)>& wanted,
                           const GoOn& go_on) {
   constexpr std::size_t kBricksPerBatch = 512, kChunk = 8;
@@ -182,9 +181,10 @@ Landmarks voxel_landmarks(const BrickField& field, const std::function<bool(cons
     for (std::size_t n = 0; n < count; ++n) {
       if (!go_on()) return {};
     }
-    for (const Landmarks& found : map_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
-           return LandmarkFinder(field, wanted).run({&bricks[first + begin], end - begin});
-         })) {
+    const auto parts = map_chunks(count, kChunk, [&](std::size_t begin, std::size_t end) {
+      return LandmarkFinder(field, wanted).run({&bricks[first + begin], end - begin});
+    });
+    for (const Landmarks& found : parts) {
       const auto before = static_cast<std::uint32_t>(all.points.size());
       all.points.insert(all.points.end(), found.points.begin(), found.points.end());
       for (const auto& [a, b] : found.links) all.links.push_back({before + a, before + b});
