@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "core/hash.h"
@@ -30,6 +31,27 @@ constexpr int kRim = 2;
 constexpr std::size_t kChunk = 4096;
 
 }  // namespace
+
+// Deep sites have no vertex of the surface within `depth`: between two plates 2 R apart, where empty spheres have radius
+// R, theirs is 1 - depth / R of the volume. (In a ball of radius R it is the third power of that.)
+double InteriorLattice::expected_deep(const RestrictedDelaunay& delaunay, double cell_size) {
+  const double cube = kCube * cell_size, depth = (1 + kClearance) * cube;
+  const auto six_volumes = map_chunks(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
+      if (delaunay.stamp(cell) == 0 || delaunay.label(cell) == 0) continue;
+      const double squared_radius = delaunay.sphere(cell).squared_radius;
+      if (squared_radius <= depth * depth) continue;
+      const auto& v = delaunay.vertices(cell);
+      const Point3& a = delaunay.point(v[0]);
+      const Vector3 normal = cross(delaunay.point(v[1]) - a, delaunay.point(v[2]) - a);
+      sum += std::abs(dot(normal, delaunay.point(v[3]) - a)) * (1 - depth / std::sqrt(squared_radius));
+    }
+    return sum;
+  });
+  constexpr double kPerCube = 2;
+  return kPerCube / (cube * cube * cube) * std::accumulate(six_volumes.begin(), six_volumes.end(), 0.0) / 6;
+}
 
 InteriorLattice::InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size, const GoOn& go_on)
     : cube_(kCube * cell_size) {

@@ -29,6 +29,9 @@ class InteriorLattice {
     VertexId vertex = kNone;
   };
 
+  /// About how many deep sites there would be, at a fraction of what laying them out takes.
+  static double expected_deep(const RestrictedDelaunay& delaunay, double cell_size);
+
   /// pre: delaunay has the balls of all its restricted triangles. `cell_size`: bound on circumradii. Has no sites if
   /// the box around the surface would hold too many, or if go_on() says to end.
   InteriorLattice(const RestrictedDelaunay& delaunay, double cell_size, const GoOn& go_on);

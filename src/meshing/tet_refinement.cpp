@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/freed_memory.h"
@@ -56,30 +57,55 @@ bool Refinement::bad(CellId cell) const {
 void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Worker& worker, bool alone) {
   const auto waiting = queues.tets.back();
   if (!delaunay_.alive(waiting.cell, waiting.stamp)) return queues.tets.pop_back();
-  const Point3 z = delaunay_.sphere(waiting.cell).center;
+  Point3 p = delaunay_.sphere(waiting.cell).center;
   Star& star = lane.lane.star;
-  star.duplicate = false;
   VertexKind kind = VertexKind::kInterior;  // 7(b)
-  // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead.
+  // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead, unless
+  // a point beside z does.
   PlacedBall found = encroached_ball_beside(waiting.cell, *worker.oracle);
-  if (found.ball.squared_radius == 0) {
-    delaunay_.find_zone(z, waiting.cell, worker, star);
-    find_encroached_ball(z, {star.zone.begin(), star.zone.size()}, *worker.oracle, found);
+  if (found.ball.squared_radius == 0) find_obstacle(p, waiting.cell, worker, star, found);
+  if (found.ball.squared_radius > 0) {
+    const auto aside = point_aside(waiting.cell, found.ball, worker, star);
+    kind = aside ? VertexKind::kInterior : VertexKind::kSurface;
+    p = aside.value_or(found.ball.center);
   }
-  if (!star.duplicate && found.ball.squared_radius == 0) {
-    delaunay_.find_tets(worker, star);
-    find_new_ball(star, *worker.oracle, found);
-  }
-  if (found.ball.squared_radius > 0) kind = VertexKind::kSurface;
-  if (leaves_to_features(waiting, kind == VertexKind::kSurface ? found.ball.center : z, lane, queues, alone)) return;
-  if (kind == VertexKind::kSurface) delaunay_.evaluate(found.ball.center, found.near, worker, star);
+  if (leaves_to_features(waiting, p, lane, queues, alone)) return;
+  if (kind == VertexKind::kSurface) delaunay_.evaluate(p, found.near, worker, star);
   if (star.duplicate) {
     ++lane.stuck;
-    lane.stuck_place = z;
+    lane.stuck_place = p;
     return queues.tets.pop_back();
   }
   lane.insertion = kind;
   lane.purpose = RefinementLane::Purpose::kTet;
+}
+
+/// The largest surface ball that contains a point in the circumball of a cell, or if none does, of those that the point
+/// would create. Leaves the point's star; where there is an obstacle, not all of it.
+void Refinement::find_obstacle(const Point3& p, CellId cell, Worker& worker, Star& star, PlacedBall& largest) const {
+  delaunay_.find_zone(p, cell, worker, star);
+  find_encroached_ball(p, {star.zone.begin(), star.zone.size()}, *worker.oracle, largest);
+  if (star.duplicate || largest.ball.squared_radius > 0) return;
+  delaunay_.find_tets(worker, star);
+  find_new_ball(star, *worker.oracle, largest);
+}
+
+/// Not in the book, where a ball that the circumcentre z of a bad tet encroaches on is always split: a point a little
+/// further from the ball's centre may do as well, and the surface keeps to the vertices that it needs itself. At up to
+/// 1 - 1/sqrt(2) circumradii from z it is no nearer to any vertex than the ball's centre may be, so that refinement ends
+/// as it does in the book. None if that point is outside or has an obstacle, too; else `star` is its star.
+std::optional<Point3> Refinement::point_aside(CellId cell, const SurfaceBall& ball, Worker& worker, Star& star) const {
+  constexpr double kLeast = 0.1, kMost = 1 - 1 / std::numbers::sqrt2, kClear = 1 + 1e-4;
+  const Point3& z = delaunay_.sphere(cell).center;
+  const double circumradius = std::sqrt(delaunay_.sphere(cell).squared_radius);
+  const double away = norm(z - ball.center);
+  const double to_go = std::max(kClear * std::sqrt(ball.squared_radius) - away, kLeast * circumradius);
+  if (away == 0 || to_go > kMost * circumradius) return std::nullopt;
+  const Point3 p = z + (to_go / away) * (z - ball.center);
+  if (worker.oracle->label(p) != delaunay_.label(cell)) return std::nullopt;
+  PlacedBall obstacle;
+  find_obstacle(p, cell, worker, star, obstacle);
+  return star.duplicate || obstacle.ball.squared_radius > 0 ? std::nullopt : std::optional(p);
 }
 
 /// The point that is to be inserted for the last tet waiting may encroach on a segment. True if it does: that is split,

@@ -93,6 +93,19 @@ TEST(DelTetSurf, ACellSizeWithoutBoundStillKeepsTheRadiusEdgeRatio) {
   test::expect_good_tets(mesh, 1e6);
 }
 
+// Splitting each surface ball that a circumcentre encroaches on would give it a sixth more.
+TEST(DelTetSurf, TheSurfaceGetsFewVerticesThatItDoesNotNeedItself) {
+  const auto oracle = test::voxel_phantom_oracle("gyroid", test::cubic_image(32));
+  DelTetSurfOptions options;
+  options.surface.size = options.tets.cell_size = 1;
+  RunReport report;
+  const SurfaceMesh surface = delsurf(*oracle, {options.surface, {}}, report);
+  const TetMesh mesh = deltetsurf(*oracle, options, report);
+  test::expect_finished(report);
+  const auto on_surface = std::count(mesh.on_surface.begin(), mesh.on_surface.end(), std::uint8_t{1});
+  EXPECT_LT(static_cast<double>(on_surface), 1.1 * static_cast<double>(surface.points.size()));
+}
+
 TEST(DelTetSurf, TheReportCountsWhatWasDone) {
   const auto oracle = test::voxel_phantom_oracle("shells", test::cubic_image(24));
   DelTetSurfOptions options;

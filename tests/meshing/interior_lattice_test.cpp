@@ -186,6 +186,16 @@ TEST_P(InteriorLatticeTest, VerticesThatComeNearMoveTheDeepSitesInward) {
   });
 }
 
+TEST_P(InteriorLatticeTest, AboutAsManySitesAreDeepAsIsExpected) {
+  InteriorLattice lattice = this->lattice();
+  lattice.find_depths();
+  const double expected = InteriorLattice::expected_deep(delaunay_, kCellSize);
+  const auto deep = static_cast<double>(lattice.deep().size());
+  EXPECT_GT(expected, 0.8 * deep);
+  EXPECT_LT(expected, 1.5 * deep);
+  EXPECT_EQ(InteriorLattice::expected_deep(delaunay_, 40), 0);
+}
+
 TEST_P(InteriorLatticeTest, HasNoSitesWhereThereIsNoRoomOrTooMuchOrItIsToldToEnd) {
   EXPECT_EQ(lattice(40).site_count(), 0u);
   EXPECT_EQ(lattice(0.01).site_count(), 0u);  // billions

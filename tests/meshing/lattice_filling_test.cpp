@@ -127,5 +127,26 @@ TEST_P(LatticeFilling, RefinementGoesOnInTheLattice) {
   expect_promises(mesh, finer.cell_size);
 }
 
+// A plate two voxels thick has no room for deep sites: refinement alone fills it.
+TEST(LatticeFillingOfAPlate, IsLeftToRefinement) {
+  const auto oracle = test::voxel_phantom_oracle("plate", test::cubic_image(40));
+  SurfaceCriteria surface;
+  surface.size = kSize;
+  const TetCriteria tets{2, kSize};
+  const RunControl control;
+  RunReport report;
+  Refinement refinement(*oracle, surface, control, Variant{}, report);
+  refinement.start();
+  refinement.refine();
+  refinement.fill_interior(tets);
+  EXPECT_EQ(report.interior_insertions, 0u);
+  refinement.watch_tets(tets);
+  do {
+    refinement.refine();
+  } while (refinement.repair());
+  EXPECT_GT(report.interior_insertions, 100u);
+  test::expect_good_tets(extract_tets(refinement.delaunay()), kSize);
+}
+
 }  // namespace
 }  // namespace delvox
