@@ -66,22 +66,26 @@ class SeedMaker {
   Seeds run() {
     seeds_.components = found_.components.size();
     const std::vector<Chunk> chunks = cut_into_chunks();
-    Batch now = made(chunks, 0), next;
+    Batch now, next;
+    make(chunks, 0, now);
     tbb::task_group making;
     bool going_on = true;
-    for (std::size_t first = kBatch; going_on && !now.empty(); first += kBatch) {
-      making.run([&, first] { next = made(chunks, first); });
+    for (std::size_t first = kBatch; going_on && now.chunks > 0; first += kBatch) {
+      making.run([&, first] { make(chunks, first, next); });
       going_on = thin(now);  // by this thread: go_on may be heard by the caller of the run
       making.wait();
-      now.swap(next);
+      std::swap(now, next);
     }
     return std::move(seeds_);
   }
 
  private:
-  /// Candidates of some chunks, in order.
-  using Batch = std::vector<std::vector<Candidate>>;
   static constexpr std::size_t kBatch = 8, kCandidatesPerChunk = 8192;
+  /// Candidates of some chunks, in order. Used again and again: new memory has to be asked for page by page.
+  struct Batch {
+    std::array<std::vector<Candidate>, kBatch> candidates;
+    std::size_t chunks = 0;
+  };
 
   std::vector<Chunk> cut_into_chunks() {
     // A field of sizes may take its time: no more of it is asked between two questions whether to go on.
@@ -101,13 +105,15 @@ class SeedMaker {
     return chunks;
   }
 
-  Batch made(const std::vector<Chunk>& chunks, std::size_t first) const {
-    const std::size_t count = std::min(kBatch, chunks.size() - std::min(first, chunks.size()));
-    return map_chunks(count, 1, [&](std::size_t n, std::size_t) { return candidates_of(chunks[first + n]); });
+  void make(const std::vector<Chunk>& chunks, std::size_t first, Batch& batch) const {
+    batch.chunks = std::min(kBatch, chunks.size() - std::min(first, chunks.size()));
+    for_each_chunk(batch.chunks, 1, [&](std::size_t n, std::size_t) {
+      find_candidates(chunks[first + n], batch.candidates[n]);
+    });
   }
 
-  std::vector<Candidate> candidates_of(const Chunk& chunk) const {
-    std::vector<Candidate> candidates;
+  void find_candidates(const Chunk& chunk, std::vector<Candidate>& candidates) const {
+    candidates.clear();
     const bool all_are = least_spacing_ <= 2 * voxel_;  // else most are turned away
     if (all_are) candidates.reserve((chunk.end_crossing - chunk.first_crossing) * copies_at(least_spacing_));
     const std::uint32_t* component = found_.of_crossing.data() + chunk.first_crossing;
@@ -115,7 +121,6 @@ class SeedMaker {
       for_each_crossed_edge(field_, bricks_[n], BrickEdges(field_, bricks_[n]),
                             [&](const CrossedEdge& edge) { add_candidates(edge, *component++, candidates); });
     }
-    return candidates;
   }
 
   void add_candidates(const CrossedEdge& edge, std::uint32_t number, std::vector<Candidate>& out) const {
@@ -144,8 +149,8 @@ class SeedMaker {
 
   /// False if go_on said no.
   bool thin(const Batch& batch) {
-    for (const std::vector<Candidate>& candidates : batch) {
-      for (const Candidate& c : candidates) {
+    for (std::size_t n = 0; n < batch.chunks; ++n) {
+      for (const Candidate& c : batch.candidates[n]) {
         if (!go_on_()) return false;
         if (c.spacing > 0 && !thinner_.keep(to_world_(c.point), c.spacing)) continue;
         seeds_.component_of.push_back(c.component);
