@@ -1,6 +1,7 @@
 #include "delaunay/hole_filling.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace delvox {
 
@@ -56,6 +57,18 @@ const FacetId* Delaunay3::HoleFilling::wall_at(FacetId facet) const {
   return wall != walls_.end() && wall->first == key ? &wall->second : nullptr;
 }
 
+/// The cell of around_ on the inner side of a wall.
+CellId Delaunay3::HoleFilling::cell_inside(const Corners& wall) const {
+  for (CellId cell = kOutside + 1; cell < around_.cell_capacity(); ++cell) {
+    const auto& v = around_.vertices(cell);
+    if (around_.stamp(cell) == 0 || std::find(v.begin(), v.end(), wall.front()) == v.end()) continue;
+    for (int i = 0; i < 4; ++i) {
+      if (canonical(around_.vertices(FacetId{cell, i})) == wall) return cell;
+    }
+  }
+  throw std::logic_error("the cells around a vertex leave no hole");
+}
+
 std::uint32_t Delaunay3::HoleFilling::number_of(CellId cell) {
   if (numbers_[cell] == kNone) {
     numbers_[cell] = static_cast<std::uint32_t>(filling_.size());
@@ -64,17 +77,12 @@ std::uint32_t Delaunay3::HoleFilling::number_of(CellId cell) {
   return numbers_[cell];
 }
 
-/// From the cells inside the walls on to all that are not beyond one.
+/// From a cell inside the walls on to all that are not beyond one.
 void Delaunay3::HoleFilling::flood() {
   numbers_.assign(around_.cell_capacity(), kNone);
   filling_.clear();
   tets_.clear();
-  for (CellId cell = 0; cell < around_.cell_capacity(); ++cell) {
-    if (cell == kOutside || around_.stamp(cell) == 0) continue;
-    for (int i = 0; i < 4; ++i) {
-      if (wall_at({cell, i}) != nullptr) number_of(cell);
-    }
-  }
+  number_of(cell_inside(walls_.front().first));
   for (std::size_t next = 0; next < filling_.size(); ++next) {
     const CellId cell = filling_[next];
     Tet tet;

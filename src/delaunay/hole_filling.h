@@ -36,6 +36,7 @@ class Delaunay3::HoleFilling {
   void insert_neighbours(const Delaunay3& whole, VertexId vertex, const std::vector<CellId>& cells);
   void find_walls(const Delaunay3& whole, VertexId vertex, const std::vector<CellId>& cells);
   const FacetId* wall_at(FacetId facet) const;
+  CellId cell_inside(const Corners& wall) const;
   void flood();
   std::uint32_t number_of(CellId cell);
 

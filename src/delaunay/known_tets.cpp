@@ -25,29 +25,37 @@ void Delaunay3::make_room_for(const KnownTets& known) {
   vertex_count_ += known.points.size();
 }
 
+/// Of the new cells that several threads bring, a vertex gets the smallest, whatever their order, instead of a larger one
+/// or one that is gone.
+template <class Gone>
+void Delaunay3::offer_cell(VertexId vertex, CellId cell, const Gone& gone) {
+  const std::atomic_ref<CellId> known(vertices_[vertex].cell);
+  CellId current = known.load(std::memory_order_relaxed);
+  while ((cell < current || gone(current)) && !known.compare_exchange_weak(current, cell, std::memory_order_relaxed)) {
+  }
+}
+
 void Delaunay3::set_known(CellId cell, const KnownTets::Tet& tet, VertexId first_vertex, std::uint32_t stamp) {
   const auto& v = tet.vertices;
   cells_[cell] = {v, tet.neighbors, circumsphere(point(v[0]), point(v[1]), point(v[2]), point(v[3]))};
   stamps_[cell] = stamp;
-  // Of the cells that several threads bring, each new vertex keeps the smallest, whatever their order.
   for (VertexId vertex : v) {
-    if (vertex < first_vertex) continue;
-    const std::atomic_ref<CellId> known(vertices_[vertex].cell);
-    CellId current = known.load(std::memory_order_relaxed);
-    while (cell < current && !known.compare_exchange_weak(current, cell, std::memory_order_relaxed)) {
-    }
+    if (vertex >= first_vertex) offer_cell(vertex, cell, [](CellId) { return false; });
   }
 }
 
 void Delaunay3::put_in_place(const KnownTets& known, const WalledRegion& region) {
-  for (CellId cell : region.cells) stamps_[cell] = 0;
+  for_each_chunk(region.cells.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) stamps_[region.cells[i]] = 0;
+  });
   free_cells_.insert(free_cells_.end(), region.cells.begin(), region.cells.end());
-  for (std::size_t w = 0; w < known.walls.size(); ++w) {
-    join(known.inside[w], region.outside[w]);
-    for (VertexId v : known.walls[w]) {
-      if (stamps_[vertices_[v].cell] == 0) vertices_[v].cell = known.inside[w].cell;
+  const auto gone = [&](CellId cell) { return stamps_[cell] == 0; };
+  for_each_chunk(known.walls.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w) {
+      join(known.inside[w], region.outside[w]);
+      for (VertexId v : known.walls[w]) offer_cell(v, known.inside[w].cell, gone);
     }
-  }
+  });
 }
 
 std::optional<std::uint32_t> RestrictedDelaunay::replace(const KnownTets& known) {

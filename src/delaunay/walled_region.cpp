@@ -1,6 +1,7 @@
 #include "delaunay/walled_region.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 
 #include "core/parallel.h"
@@ -59,16 +60,17 @@ class WallIndex {
   std::vector<Entry> sorted_;
 };
 
-}  // namespace
+/// A wall and what lies on its two sides.
+struct WallPlace {
+  FacetId inside, outside;
+  std::uint32_t wall;
+};
 
-std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const std::vector<Wall>& walls) {
-  constexpr std::size_t kChunk = 1 << 12;
-  struct Found {
-    FacetId inside, outside;
-    std::uint32_t wall;
-  };
+constexpr std::size_t kChunk = 1 << 12;
+
+std::vector<WallPlace> find_places(const Delaunay3& delaunay, const std::vector<Wall>& walls) {
   const WallIndex index(walls, delaunay.vertex_capacity());
-  const auto collect = [&](std::size_t begin, std::size_t end, std::vector<Found>& found) {
+  return gather_chunks<WallPlace>(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
     for (auto cell = std::max(static_cast<CellId>(begin), Delaunay3::kOutside + 1); cell < end; ++cell) {
       if (delaunay.stamp(cell) == 0) continue;
       for (unsigned facets = index.between_walls(delaunay.vertices(cell)); facets != 0; facets &= facets - 1) {
@@ -79,32 +81,69 @@ std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const 
         found.push_back({facet, {}, wall});
       }
     }
-    for (Found& each : found) each.outside = delaunay.mirror(each.inside);
-  };
-  const std::vector<Found> found = gather_chunks<Found>(delaunay.cell_capacity(), kChunk, collect);
-  if (found.size() != walls.size()) return std::nullopt;
+    for (WallPlace& each : found) each.outside = delaunay.mirror(each.inside);
+  });
+}
 
-  WalledRegion region;
-  region.outside.resize(walls.size());
-  constexpr std::uint8_t kInside = 1 << 4;  // beside a bit for each facet that is a wall
-  std::vector<std::uint8_t> known(delaunay.cell_capacity(), 0);
-  const auto add = [&](CellId cell) {
-    if ((known[cell] & kInside) != 0) return;
-    known[cell] |= kInside;
-    region.cells.push_back(cell);
-    delaunay.prefetch(cell);
-  };
-  for (const auto& [facet, outside, wall] : found) {
-    region.outside[wall] = outside;
-    known[facet.cell] |= static_cast<std::uint8_t>(1 << facet.index);
-    add(facet.cell);
+/// The cells between walls, by several threads, each of which floods its part from the walls on.
+class Flood {
+ public:
+  Flood(const Delaunay3& delaunay, const std::vector<WallPlace>& places)
+      : delaunay_(delaunay), places_(places), known_(delaunay.cell_capacity(), 0) {}
+
+  std::vector<CellId> run() {
+    constexpr std::size_t kWalls = 256;
+    for_each_chunk(places_.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const FacetId facet = places_[i].inside;
+        of(facet.cell).fetch_or(static_cast<std::uint8_t>(1 << facet.index), std::memory_order_relaxed);
+      }
+    });
+    for_each_chunk(places_.size(), kWalls, [&](std::size_t begin, std::size_t end) { flood_from(begin, end); });
+    return gather_chunks<CellId>(known_.size(), kChunk, [&](std::size_t begin, std::size_t end, auto& cells) {
+      for (auto cell = static_cast<CellId>(begin); cell < end; ++cell) {
+        if ((known_[cell] & kInside) != 0) cells.push_back(cell);
+      }
+    });
   }
-  for (std::size_t next = 0; next < region.cells.size(); ++next) {
-    const CellId cell = region.cells[next];
-    for (int i = 0; i < 4; ++i) {
-      if ((known[cell] >> i & 1) == 0) add(delaunay.neighbors(cell)[i]);
+
+ private:
+  static constexpr std::uint8_t kInside = 1 << 4;  // beside a bit for each facet that is a wall
+
+  void flood_from(std::size_t begin, std::size_t end) {
+    std::vector<CellId> entered;
+    const auto enter = [&](CellId cell) {
+      if ((of(cell).load(std::memory_order_relaxed) & kInside) != 0) return;
+      if ((of(cell).fetch_or(kInside, std::memory_order_relaxed) & kInside) != 0) return;
+      entered.push_back(cell);
+      delaunay_.prefetch(cell);
+    };
+    for (std::size_t i = begin; i < end; ++i) enter(places_[i].inside.cell);
+    for (std::size_t next = 0; next < entered.size(); ++next) {
+      const CellId cell = entered[next];
+      const std::uint8_t walls = of(cell).load(std::memory_order_relaxed);
+      for (int i = 0; i < 4; ++i) {
+        if ((walls >> i & 1) == 0) enter(delaunay_.neighbors(cell)[i]);
+      }
     }
   }
+
+  std::atomic_ref<std::uint8_t> of(CellId cell) { return std::atomic_ref(known_[cell]); }
+
+  const Delaunay3& delaunay_;
+  const std::vector<WallPlace>& places_;
+  std::vector<std::uint8_t> known_;
+};
+
+}  // namespace
+
+std::optional<WalledRegion> find_walled_region(const Delaunay3& delaunay, const std::vector<Wall>& walls) {
+  const std::vector<WallPlace> places = find_places(delaunay, walls);
+  if (places.size() != walls.size()) return std::nullopt;
+  WalledRegion region;
+  region.outside.resize(walls.size());
+  for (const WallPlace& place : places) region.outside[place.wall] = place.outside;
+  region.cells = Flood(delaunay, places).run();
   return region;
 }
 

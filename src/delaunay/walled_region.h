@@ -15,7 +15,7 @@ using Wall = std::array<VertexId, 3>;
 
 /// What a closed surface of facets encloses.
 struct WalledRegion {
-  std::vector<CellId> cells;     ///< all within
+  std::vector<CellId> cells;     ///< all within, ascending
   std::vector<FacetId> outside;  ///< for each wall, that facet of the cell beyond it
 };
 

@@ -63,11 +63,14 @@ KnownTets DeepTets::known() const {
     }
   };
   known.inside = gather_chunks<FacetId>(places_.size(), kChunk, collect);
-  for (FacetId facet : known.inside) {
-    const std::array<VertexId, 4> vertices = tet(facet.cell - first_cell_).vertices;
-    const auto& face = kTetFaces[facet.index];
-    known.walls.push_back({vertices[face[0]], vertices[face[1]], vertices[face[2]]});
-  }
+  known.walls.resize(known.inside.size());
+  for_each_chunk(known.walls.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t w = begin; w < end; ++w) {
+      const std::array<VertexId, 4> vertices = tet(known.inside[w].cell - first_cell_).vertices;
+      const auto& face = kTetFaces[known.inside[w].index];
+      known.walls[w] = {vertices[face[0]], vertices[face[1]], vertices[face[2]]};
+    }
+  });
   return known;
 }
 
