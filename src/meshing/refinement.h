@@ -111,7 +111,7 @@ class Refinement {
     CellId near = kNone;
   };
   /// A matter of the mesh alone, never of the number of threads.
-  static constexpr std::size_t kLanes = 8;
+  static constexpr std::size_t kLanes = 16;
   static_assert(kLanes <= RestrictedDelaunay::kMostLanes);
   /// kTwoFaced: faces inside or outside with both sides, and its ball is too small to be split.
   enum class Verdict { kGood, kSplit, kTooDeviant, kTwoFaced };

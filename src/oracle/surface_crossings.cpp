@@ -116,14 +116,17 @@ class LayerFinder {
     const Word all_four = crossed[0] & crossed[1] & crossed[2];
     const std::array<Local*, 4> edge{edge_at_[u].data(), edge_at_[v].data() + kStride[u],
                                      edge_at_[u].data() + kStride[v], edge_at_[v].data()};
-    for (int first = 0; first < 3; ++first) {
-      for (int second = first + 1; second < 4; ++second) {
-        BrickEdges::for_each_bit(crossed[first] & crossed[second] & ~all_four, [&](int bit) {
-          const int place = place_of(layer, bit);
-          unite(parent_.data(), edge[first][place], edge[second][place]);
-        });
+    // Elsewhere none are crossed, or two.
+    BrickEdges::for_each_bit((crossed[0] | crossed[1] | crossed[2]) & ~all_four, [&](int bit) {
+      const int place = place_of(layer, bit);
+      std::array<Local, 5> two;  // without branches: which they are cannot be foreseen
+      std::size_t found = 0;
+      for (int i = 0; i < 4; ++i) {
+        two[found] = edge[i][place];
+        found += crossed[i] >> bit & 1;
       }
-    }
+      unite(parent_.data(), two[0], two[1]);
+    });
     BrickEdges::for_each_bit(all_four, [&](int bit) {
       const int place = place_of(layer, bit);
       const float* p = block + place;
