@@ -147,8 +147,6 @@ class Delaunay3 {
   void set_known(CellId cell, const KnownTets::Tet& tet, VertexId first_vertex, std::uint32_t stamp);
   /// Then all of them take the place of the region that find_walled_region() found before.
   void put_in_place(const KnownTets& known, const WalledRegion& region);
-  template <class Gone>
-  void offer_cell(VertexId vertex, CellId cell, const Gone& gone);
 
   /// Removes a vertex; `destroyed` receives the numbers of the cells that are gone, `created` of those that fill the
   /// hole. pre: no corner.
@@ -180,6 +178,8 @@ class Delaunay3 {
   void set_cell(CellId cell, const std::array<VertexId, 4>& vertices, const Circumsphere& sphere);
   void repoint(const Star& star, const std::vector<CellId>& created);
   void join(FacetId facet, FacetId outer);
+  template <class Gone>
+  void offer_cell(VertexId vertex, CellId cell, const Gone& gone);
 
   Box3 bounds_;
   bool several_threads_;

@@ -25,8 +25,8 @@ void Delaunay3::make_room_for(const KnownTets& known) {
   vertex_count_ += known.points.size();
 }
 
-/// Of the new cells that several threads bring, a vertex gets the smallest, whatever their order, instead of a larger one
-/// or one that is gone.
+/// Of the new cells that several threads bring, a vertex gets the smallest, whatever their order, instead of a larger
+/// one or one that is gone.
 template <class Gone>
 void Delaunay3::offer_cell(VertexId vertex, CellId cell, const Gone& gone) {
   const std::atomic_ref<CellId> known(vertices_[vertex].cell);

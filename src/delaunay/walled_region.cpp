@@ -70,19 +70,20 @@ constexpr std::size_t kChunk = 1 << 12;
 
 std::vector<WallPlace> find_places(const Delaunay3& delaunay, const std::vector<Wall>& walls) {
   const WallIndex index(walls, delaunay.vertex_capacity());
-  return gather_chunks<WallPlace>(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
-    for (auto cell = std::max(static_cast<CellId>(begin), Delaunay3::kOutside + 1); cell < end; ++cell) {
-      if (delaunay.stamp(cell) == 0) continue;
-      for (unsigned facets = index.between_walls(delaunay.vertices(cell)); facets != 0; facets &= facets - 1) {
-        const FacetId facet{cell, std::countr_zero(facets)};
-        const std::uint32_t wall = index.find(delaunay.vertices(facet));
-        if (wall == kNone) continue;
-        delaunay.prefetch(delaunay.neighbors(cell)[facet.index]);
-        found.push_back({facet, {}, wall});
-      }
-    }
-    for (WallPlace& each : found) each.outside = delaunay.mirror(each.inside);
-  });
+  return gather_chunks<WallPlace>(
+      delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end, auto& found) {
+        for (auto cell = std::max(static_cast<CellId>(begin), Delaunay3::kOutside + 1); cell < end; ++cell) {
+          if (delaunay.stamp(cell) == 0) continue;
+          for (unsigned facets = index.between_walls(delaunay.vertices(cell)); facets != 0; facets &= facets - 1) {
+            const FacetId facet{cell, std::countr_zero(facets)};
+            const std::uint32_t wall = index.find(delaunay.vertices(facet));
+            if (wall == kNone) continue;
+            delaunay.prefetch(delaunay.neighbors(cell)[facet.index]);
+            found.push_back({facet, {}, wall});
+          }
+        }
+        for (WallPlace& each : found) each.outside = delaunay.mirror(each.inside);
+      });
 }
 
 /// The cells between walls, by several threads, each of which floods its part from the walls on.

@@ -32,8 +32,8 @@ constexpr std::size_t kChunk = 4096;
 
 }  // namespace
 
-// Deep sites have no vertex of the surface within `depth`: between two plates 2 R apart, where empty spheres have radius
-// R, theirs is 1 - depth / R of the volume. (In a ball of radius R it is the third power of that.)
+// Deep sites have no vertex of the surface within `depth`: between two plates 2 R apart, where empty spheres have
+// radius R, theirs is 1 - depth / R of the volume. (In a ball of radius R it is the third power of that.)
 double InteriorLattice::expected_deep(const RestrictedDelaunay& delaunay, double cell_size) {
   const double cube = kCube * cell_size, depth = (1 + kClearance) * cube;
   const auto six_volumes = map_chunks(delaunay.cell_capacity(), kChunk, [&](std::size_t begin, std::size_t end) {

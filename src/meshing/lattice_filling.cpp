@@ -6,7 +6,7 @@ namespace delvox {
 void Refinement::fill_interior(const TetCriteria& criteria) {
   // Deep sites are what a lattice saves: the others are inserted one by one, as refinement does. In thin bodies, laying
   // it out takes longer than that.
-  constexpr double kFewestDeep = 1.0 / 16;  // for each vertex of the surface
+  constexpr double kFewestDeep = 1.0 / 16;  // for each vertex that there is
   if (!criteria.cell_size.constant() || !budget_left()) return;
   const double fewest = kFewestDeep * static_cast<double>(vertex_count());
   if (InteriorLattice::expected_deep(delaunay_, criteria.cell_size.maximum()) < fewest) return;

@@ -60,8 +60,8 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   Point3 p = delaunay_.sphere(waiting.cell).center;
   Star& star = lane.lane.star;
   VertexKind kind = VertexKind::kInterior;  // 7(b)
-  // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. The ball's centre goes in instead, unless
-  // a point beside z does.
+  // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. A point beside z goes in instead, or
+  // the ball's centre.
   PlacedBall found = encroached_ball_beside(waiting.cell, *worker.oracle);
   if (found.ball.squared_radius == 0) find_obstacle(p, waiting.cell, worker, star, found);
   if (found.ball.squared_radius > 0) {
@@ -90,10 +90,11 @@ void Refinement::find_obstacle(const Point3& p, CellId cell, Worker& worker, Sta
   find_new_ball(star, *worker.oracle, largest);
 }
 
-/// Not in the book, where a ball that the circumcentre z of a bad tet encroaches on is always split: a point a little
-/// further from the ball's centre may do as well, and the surface keeps to the vertices that it needs itself. At up to
-/// 1 - 1/sqrt(2) circumradii from z it is no nearer to any vertex than the ball's centre may be, so that refinement ends
-/// as it does in the book. None if that point is outside or has an obstacle, too; else `star` is its star.
+/// Not in the book, where the ball on which the circumcentre z of a bad tet encroaches is always split: a point a
+/// little further from its centre may do as well, and the surface keeps to the vertices that it needs itself. At up to
+/// 1 - 1/sqrt(2) circumradii from z no vertex is nearer to it than 1/sqrt(2) of these: for a radius-edge ratio of 2 or
+/// more that is no less than the shortest edge, and proposition 14.13 holds, by which refinement ends. None if the
+/// point is on another side, encroaches on a sharp edge or has an obstacle, too; else `star` is its star.
 std::optional<Point3> Refinement::point_aside(CellId cell, const SurfaceBall& ball, Worker& worker, Star& star) const {
   constexpr double kLeast = 0.1, kMost = 1 - 1 / std::numbers::sqrt2, kClear = 1 + 1e-4;
   const Point3& z = delaunay_.sphere(cell).center;
@@ -103,6 +104,7 @@ std::optional<Point3> Refinement::point_aside(CellId cell, const SurfaceBall& ba
   if (away == 0 || to_go > kMost * circumradius) return std::nullopt;
   const Point3 p = z + (to_go / away) * (z - ball.center);
   if (worker.oracle->label(p) != delaunay_.label(cell)) return std::nullopt;
+  if (features_ && features_->encroached_by(p)) return std::nullopt;
   PlacedBall obstacle;
   find_obstacle(p, cell, worker, star, obstacle);
   return star.duplicate || obstacle.ball.squared_radius > 0 ? std::nullopt : std::optional(p);

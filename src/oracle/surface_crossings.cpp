@@ -119,7 +119,7 @@ class LayerFinder {
     // Elsewhere none are crossed, or two.
     BrickEdges::for_each_bit((crossed[0] | crossed[1] | crossed[2]) & ~all_four, [&](int bit) {
       const int place = place_of(layer, bit);
-      std::array<Local, 5> two;  // without branches: which they are cannot be foreseen
+      std::array<Local, 3> two;  // and one to write to; without branches, as which they are cannot be foreseen
       std::size_t found = 0;
       for (int i = 0; i < 4; ++i) {
         two[found] = edge[i][place];

@@ -107,9 +107,8 @@ class SeedMaker {
 
   void make(const std::vector<Chunk>& chunks, std::size_t first, Batch& batch) const {
     batch.chunks = std::min(kBatch, chunks.size() - std::min(first, chunks.size()));
-    for_each_chunk(batch.chunks, 1, [&](std::size_t n, std::size_t) {
-      find_candidates(chunks[first + n], batch.candidates[n]);
-    });
+    for_each_chunk(batch.chunks, 1,
+                   [&](std::size_t n, std::size_t) { find_candidates(chunks[first + n], batch.candidates[n]); });
   }
 
   void find_candidates(const Chunk& chunk, std::vector<Candidate>& candidates) const {

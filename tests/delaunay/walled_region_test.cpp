@@ -63,6 +63,7 @@ TEST_P(WalledRegionTest, HoldsTheCellsWithinTheWallsInAnyOrder) {
   for (Wall& wall : walls) std::rotate(wall.begin(), wall.begin() + random_.below(3), wall.end());
   const auto region = find_walled_region(delaunay_, walls);
   ASSERT_TRUE(region.has_value());
+  EXPECT_TRUE(std::is_sorted(region->cells.begin(), region->cells.end()));
   std::vector<bool> held(delaunay_.cell_capacity(), false);
   for (CellId cell : region->cells) {
     EXPECT_FALSE(held[cell]) << "twice";

@@ -15,9 +15,10 @@ using test::PhantomCase;
 
 class Threads : public testing::TestWithParam<PhantomCase> {};
 
-// A deep lattice; landmarks, links and Voronoi edges; removals of interior vertices; many repairs of umbrellas.
+// A deep lattice behind thousands of walls; landmarks, links and Voronoi edges; removals of interior vertices; many
+// repairs of umbrellas.
 INSTANTIATE_TEST_SUITE_P(Phantoms, Threads,
-                         testing::Values(PhantomCase{"sphere", test::cubic_image(32), 0.9},
+                         testing::Values(PhantomCase{"sphere", test::cubic_image(36), 0.65},
                                          PhantomCase{"gyroid", test::cubic_image(16), 0.5},
                                          PhantomCase{"shells", test::cubic_image(28), 1.0},
                                          PhantomCase{"noisy-sphere", test::with_noise(test::cubic_image(14), 0.7), 0.5}),

@@ -21,10 +21,10 @@ struct DelTetSurfOptions {
 };
 
 /// DelTetSurf (book, 14.5), in its isosurface variant or on Del|Sigma as a whole: tetrahedra of the inside, whose
-/// boundary is a closed 2-manifold with vertices on the oracle's surface. Where the circumcentre of a bad tet encroaches
-/// on the surface, a point beside it goes in if that does not; else, as in the book, a point of the surface. A limit or
-/// an unmet criterion is told in the report, and the mesh is what there was. Throws OptionError, NothingToMesh,
-/// Cancelled.
+/// boundary is a closed 2-manifold with vertices on the oracle's surface. Where the circumcentre of a bad tet
+/// encroaches on the surface, a point beside it goes in if that does not; else, as in the book, a point of the surface.
+/// A limit or an unmet criterion is told in the report, and the mesh is what there was. Throws OptionError,
+/// NothingToMesh, Cancelled.
 TetMesh deltetsurf(const Oracle& oracle, const DelTetSurfOptions& options, RunReport& report);
 
 }  // namespace delvox
