@@ -39,7 +39,24 @@ compare() {
   "$bench/compare_mesh3" $common --only ours --threads 2
 }
 
+# by_turns INPUT SIZE: ours on one thread and on two by turns, as what else the host does changes from minute to minute.
+by_turns() {
+  local turn threads
+  for turn in 1 2 3 4 5 6 7; do
+    for threads in 1 2; do
+      "$bench/compare_mesh3" $1 --size $2 --only ours --repeat 1 --threads $threads --csv "$figures/turns.csv" > /dev/null
+    done
+  done
+  python3 - "$figures/turns.csv" "$1, size $2" <<'END'
+import csv, statistics, sys
+rows = list(csv.DictReader(open(sys.argv[1])))[-14:]
+one, two = (statistics.median(float(row["seconds"]) for row in rows if row["threads"] == n) for n in "12")
+print(f"{sys.argv[2]}: {one:.3f} s by one thread, {two:.3f} s by two: {one / two:.2f}; medians of 7 by turns")
+END
+}
+
 for size in 10.2 5.45 2.953; do compare "$liver" $size; done
+by_turns "$liver" 2.953
 if ! $quick; then
   for size in 1.965 0.998; do compare "$liver" $size; done
   for size in 2.638 1.764; do compare "$skull" $size; done
@@ -48,6 +65,7 @@ if ! $quick; then
   for size in 2.238 1.403; do compare "$scans/CT_pitch.nii.gz --iso 127.3" $size; done
   for size in 0.9335 0.6227; do compare "$scans/CT_AVM.nii.gz --iso 180" $size; done
   for run in "$liver --size 1.965" "$skull --size 1.764" "$brain --size 1.919" "$iguana --size 0.12"; do
+    by_turns "${run% --size*}" "${run##*--size }"
     "$bench/memory_bench" $run
     "$bench/delaunay_bench" $run --repeat $repeat
   done
