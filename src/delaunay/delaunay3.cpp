@@ -293,8 +293,8 @@ VertexId Delaunay3::commit(const Star& star, std::vector<CellId>& created) {
   return commit(star, new_claim(), room_, created);
 }
 
-/// Gives the star's vertices new cells. The far corners may be those of other stars, too, that are committed at the same
-/// time, but the cell that each has is in the zone of one of these only.
+/// Gives the star's vertices new cells. The far corners may be those of other stars, too, that are committed at the
+/// same time, but the cell that each has is in the zone of one of these only.
 void Delaunay3::repoint(const Star& star, const std::vector<CellId>& created) {
   for (const Star::Corner& corner : star.corners) {
     CellId& cell = vertices_[corner.vertex].cell;

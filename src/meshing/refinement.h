@@ -268,7 +268,7 @@ class Refinement {
                                          RefinementLane& lane, RefinementQueues& queues, bool alone);
   bool leaves_to_features(const RefinementQueues::WaitingTet& waiting, const Point3& p, RefinementLane& lane,
                           RefinementQueues& queues, bool alone);
-  void find_obstacle(const Point3& p, CellId cell, Worker& worker, Star& star, PlacedBall& largest) const;
+  PlacedBall find_obstacle(const Point3& p, CellId cell, Worker& worker, Star& star) const;
   std::optional<Point3> point_aside(CellId cell, const SurfaceBall& ball, Worker& worker, Star& star) const;
   PlacedBall encroached_ball_beside(CellId cell, const Oracle& oracle) const;
   void find_encroached_ball(const Point3& z, std::span<const CellId> cells, const Oracle& oracle,

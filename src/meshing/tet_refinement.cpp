@@ -63,7 +63,7 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
   // 7(a): z lies in a surface ball; 7(c): z would create a restricted triangle. A point beside z goes in instead, or
   // the ball's centre.
   PlacedBall found = encroached_ball_beside(waiting.cell, *worker.oracle);
-  if (found.ball.squared_radius == 0) find_obstacle(p, waiting.cell, worker, star, found);
+  if (found.ball.squared_radius == 0) found = find_obstacle(p, waiting.cell, worker, star);
   if (found.ball.squared_radius > 0) {
     const auto aside = point_aside(waiting.cell, found.ball, worker, star);
     kind = aside ? VertexKind::kInterior : VertexKind::kSurface;
@@ -81,13 +81,15 @@ void Refinement::look_at_tet(RefinementLane& lane, RefinementQueues& queues, Wor
 }
 
 /// The largest surface ball that contains a point in the circumball of a cell, or if none does, of those that the point
-/// would create. Leaves the point's star; where there is an obstacle, not all of it.
-void Refinement::find_obstacle(const Point3& p, CellId cell, Worker& worker, Star& star, PlacedBall& largest) const {
+/// would create; else its radius is 0. Leaves the point's star; where there is an obstacle, not all of it.
+Refinement::PlacedBall Refinement::find_obstacle(const Point3& p, CellId cell, Worker& worker, Star& star) const {
+  PlacedBall largest;
   delaunay_.find_zone(p, cell, worker, star);
   find_encroached_ball(p, {star.zone.begin(), star.zone.size()}, *worker.oracle, largest);
-  if (star.duplicate || largest.ball.squared_radius > 0) return;
+  if (star.duplicate || largest.ball.squared_radius > 0) return largest;
   delaunay_.find_tets(worker, star);
   find_new_ball(star, *worker.oracle, largest);
+  return largest;
 }
 
 /// Not in the book, where the ball on which the circumcentre z of a bad tet encroaches is always split: a point a
@@ -105,8 +107,7 @@ std::optional<Point3> Refinement::point_aside(CellId cell, const SurfaceBall& ba
   const Point3 p = z + (to_go / away) * (z - ball.center);
   if (worker.oracle->label(p) != delaunay_.label(cell)) return std::nullopt;
   if (features_ && features_->encroached_by(p)) return std::nullopt;
-  PlacedBall obstacle;
-  find_obstacle(p, cell, worker, star, obstacle);
+  const PlacedBall obstacle = find_obstacle(p, cell, worker, star);
   return star.duplicate || obstacle.ball.squared_radius > 0 ? std::nullopt : std::optional(p);
 }
 

@@ -88,8 +88,8 @@ Refinement::PlacedBall Refinement::ball_to_split(VertexId vertex, RefinementLane
   for (const FacetId& candidate : umbrella.facets) {
     const SurfaceBall* ball = delaunay_.ball(candidate);
     if (ball == nullptr) {
-      // An insertion of this call made the facet: it waits to be judged, and the umbrella for the next call. (While tets
-      // are watched, facets are judged as they are made.)
+      // An insertion of this call made the facet: it waits to be judged, and the umbrella for the next call. (While
+      // tets are watched, facets are judged as they are made.)
       lane.dirty.add(delaunay_.vertices(candidate));
       return {};
     }

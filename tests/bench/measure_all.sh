@@ -32,11 +32,12 @@ brain="$scans/spm152.nii.gz --iso 40"
 iguana="$scans/Iguana.nii.gz --iso 119.3"
 repeat=$($quick && echo 1 || echo 3)
 
-# compare INPUT SIZE: all contenders on one thread, then ours on two.
+# compare INPUT SIZE: all contenders on one thread, then ours on two; both by turns, too.
 compare() {
   local common="$1 --size $2 --repeat $repeat --csv $figures/compare_mesh3.csv"
   "$bench/compare_mesh3" $common
   "$bench/compare_mesh3" $common --only ours --threads 2
+  if ! $quick; then by_turns "$1" $2; fi
 }
 
 # by_turns INPUT SIZE: ours on one thread and on two by turns, as what else the host does changes from minute to minute.
@@ -44,7 +45,8 @@ by_turns() {
   local turn threads
   for turn in 1 2 3 4 5 6 7; do
     for threads in 1 2; do
-      "$bench/compare_mesh3" $1 --size $2 --only ours --repeat 1 --threads $threads --csv "$figures/turns.csv" > /dev/null
+      "$bench/compare_mesh3" $1 --size $2 --only ours --repeat 1 --threads $threads \
+        --csv "$figures/turns.csv" > /dev/null
     done
   done
   python3 - "$figures/turns.csv" "$1, size $2" <<'END'
@@ -55,8 +57,19 @@ print(f"{sys.argv[2]}: {one:.3f} s by one thread, {two:.3f} s by two: {one / two
 END
 }
 
+# whole INPUT SIZE: the program from the file to the verified mesh in a VTU file, on one thread.
+whole() {
+  python3 - "$delvox" tet $1 --size $2 --threads 1 --min-dihedral 0 --quiet -o "$figures/whole.vtu" <<'END'
+import statistics, subprocess, sys, time
+def seconds():
+    begin = time.monotonic()
+    subprocess.run(sys.argv[1:], check=True)
+    return time.monotonic() - begin
+print(f"{' '.join(sys.argv[2:])}: {statistics.median(seconds() for _ in range(5)):.2f} s, median of 5")
+END
+}
+
 for size in 10.2 5.45 2.953; do compare "$liver" $size; done
-by_turns "$liver" 2.953
 if ! $quick; then
   for size in 1.965 0.998; do compare "$liver" $size; done
   for size in 2.638 1.764; do compare "$skull" $size; done
@@ -65,7 +78,7 @@ if ! $quick; then
   for size in 2.238 1.403; do compare "$scans/CT_pitch.nii.gz --iso 127.3" $size; done
   for size in 0.9335 0.6227; do compare "$scans/CT_AVM.nii.gz --iso 180" $size; done
   for run in "$liver --size 1.965" "$skull --size 1.764" "$brain --size 1.919" "$iguana --size 0.12"; do
-    by_turns "${run% --size*}" "${run##*--size }"
+    whole "${run% --size*}" "${run##*--size }"
     "$bench/memory_bench" $run
     "$bench/delaunay_bench" $run --repeat $repeat
   done
